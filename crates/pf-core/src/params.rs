@@ -1,0 +1,127 @@
+//! Parameters by name, for command lines and scenario files, without serde.
+
+/// One parameter that [`Params::set`] knows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Key {
+    /// Its name.
+    pub name: &'static str,
+    /// What it means, with its unit.
+    pub about: &'static str,
+}
+
+/// A set of parameters whose members can be set by name.
+///
+/// Use [`params!`](crate::params) to implement it.
+pub trait Params {
+    /// The names there are.
+    const KEYS: &'static [Key];
+
+    /// Sets the parameter called `key`.
+    ///
+    /// # Errors
+    /// [`InvalidParams`] if there is none of that name, or `value` cannot be read as its type.
+    fn set(&mut self, key: &str, value: &str) -> Result<(), InvalidParams>;
+}
+
+impl Params for () {
+    const KEYS: &'static [Key] = &[];
+
+    fn set(&mut self, key: &str, _: &str) -> Result<(), InvalidParams> {
+        Err(InvalidParams::unknown::<Self>(key))
+    }
+}
+
+/// A parameter that makes no sense.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum InvalidParams {
+    /// There is no parameter of that name.
+    #[error("there is no parameter `{key}`; known: {}", list(.known))]
+    UnknownKey {
+        /// The name asked for.
+        key: String,
+        /// The names there are.
+        known: &'static [Key],
+    },
+    /// The value does not fit the parameter.
+    #[error("parameter `{key}`: `{value}` is not {expected}")]
+    BadValue {
+        /// The parameter.
+        key: String,
+        /// What was given.
+        value: String,
+        /// What would fit.
+        expected: String,
+    },
+}
+
+impl InvalidParams {
+    /// No parameter of `P` is called `key`.
+    #[must_use]
+    pub fn unknown<P: Params>(key: &str) -> Self {
+        Self::UnknownKey {
+            key: key.to_owned(),
+            known: P::KEYS,
+        }
+    }
+
+    /// `value` does not fit the parameter `key`.
+    #[must_use]
+    pub fn bad(key: &str, value: &str, expected: impl Into<String>) -> Self {
+        Self::BadValue {
+            key: key.to_owned(),
+            value: value.to_owned(),
+            expected: expected.into(),
+        }
+    }
+}
+
+fn list(keys: &[Key]) -> String {
+    if keys.is_empty() {
+        return "none".to_owned();
+    }
+    let names: Vec<_> = keys.iter().map(|k| k.name).collect();
+    names.join(", ")
+}
+
+/// Implements [`Params`] for a struct: one line per field that can be set by name.
+///
+/// ```
+/// # use pf_core::{Params, params};
+/// #[derive(Default)]
+/// struct AntParams { ants: usize, alpha: f64 }
+/// params!(AntParams {
+///     ants: usize = "ants per iteration",
+///     alpha: f64 = "exponent of the straight distance to the goal",
+/// });
+///
+/// let mut params = AntParams::default();
+/// params.set("alpha", "8").unwrap();
+/// assert_eq!(params.alpha, 8.0);
+/// let error = params.set("rho", "0.1").unwrap_err();
+/// assert_eq!(error.to_string(), "there is no parameter `rho`; known: ants, alpha");
+/// let error = params.set("ants", "many").unwrap_err();
+/// assert_eq!(error.to_string(), "parameter `ants`: `many` is not a value of type usize");
+/// ```
+#[macro_export]
+macro_rules! params {
+    ($params:ty { $($field:ident: $kind:ty = $about:literal),* $(,)? }) => {
+        impl $crate::Params for $params {
+            const KEYS: &'static [$crate::Key] =
+                &[$($crate::Key { name: stringify!($field), about: $about }),*];
+
+            fn set(&mut self, key: &str, value: &str) -> Result<(), $crate::InvalidParams> {
+                match key {
+                    $(stringify!($field) => {
+                        self.$field = value.parse::<$kind>().map_err(|_| {
+                            let expected = concat!("a value of type ", stringify!($kind));
+                            $crate::InvalidParams::bad(key, value, expected)
+                        })?;
+                    })*
+                    _ => return Err($crate::InvalidParams::unknown::<Self>(key)),
+                }
+                Ok(())
+            }
+        }
+    };
+}
