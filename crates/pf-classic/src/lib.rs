@@ -1,1 +1,1 @@
-//! Empty so far.
+//! Dijkstra, A* and D* Lite on grids: exact, proven and fast.
