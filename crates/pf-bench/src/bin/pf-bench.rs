@@ -1,0 +1,4 @@
+//! Probe
+fn main() {
+    pf_bench::grid::main()
+}
