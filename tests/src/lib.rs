@@ -1,1 +1,3 @@
-//! Empty so far.
+//! Tests that see the whole workspace, and what they share.
+
+pub mod golden;

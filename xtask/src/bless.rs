@@ -5,7 +5,7 @@ use anyhow::Result;
 use std::process::Command;
 
 pub(crate) fn run() -> Result<Verdict> {
-    let mut test = cargo(["test", "-p", "pf-tests", "golden"]);
+    let mut test = cargo(["test", "-p", "pf-tests", "--test", "golden"]);
     let verdict = passes(test.env("PF_BLESS", "1"))?;
     if verdict == Verdict::Passed {
         println!("\nGolden files that differ from the last commit (read them before you commit):");
