@@ -1,1 +1,3 @@
-//! Empty so far.
+//! Benchmarks beside other crates, by one protocol.
+
+pub mod grid;

@@ -23,16 +23,25 @@
 //! assert!(problem.judge(&path).is_err());
 //! ```
 
+mod buckets;
+mod canonical;
 mod cell;
 mod cost;
+mod exact;
 mod grid;
 mod layout;
 mod moves;
 mod problem;
+mod search;
+mod word;
 
+pub use buckets::Buckets;
 pub use cell::Cell;
 pub use cost::GridCost;
+pub use exact::{ExactSearch, Found};
 pub use grid::Grid;
 pub use layout::Layout;
 pub use moves::{DIRECTIONS, Moves};
 pub use problem::{GridChange, GridProblem};
+pub use search::{End, Search};
+pub use word::Word;

@@ -1,0 +1,2 @@
+//! Probe
+fn main() { pf_bench::grid::main() }
