@@ -26,9 +26,11 @@
 mod buckets;
 mod canonical;
 mod cell;
+mod clearance;
 mod cost;
 mod exact;
 mod grid;
+mod inflated;
 mod layout;
 mod moves;
 mod problem;
@@ -37,9 +39,11 @@ mod word;
 
 pub use buckets::Buckets;
 pub use cell::Cell;
+pub use clearance::Clearance;
 pub use cost::GridCost;
 pub use exact::{ExactSearch, Found};
 pub use grid::Grid;
+pub use inflated::Inflated;
 pub use layout::Layout;
 pub use moves::{DIRECTIONS, Moves};
 pub use problem::{GridChange, GridProblem};

@@ -1,2 +1,4 @@
 //! Probe
-fn main() { pf_bench::grid::main() }
+fn main() {
+    pf_bench::grid::main()
+}
