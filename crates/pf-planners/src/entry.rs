@@ -12,8 +12,10 @@ pub struct Entry<P: Problem> {
     pub(crate) source: &'static str,
     pub(crate) parameters: &'static [Key],
     pub(crate) replans: bool,
-    pub(crate) make: fn(&Settings) -> Result<Box<dyn Replanner<P>>, InvalidParams>,
+    pub(crate) make: Make<P>,
 }
+
+type Make<P> = fn(&Settings) -> Result<Box<dyn Replanner<P>>, InvalidParams>;
 
 impl<P: Problem> Entry<P> {
     /// The name on the command line.
@@ -119,39 +121,30 @@ pub(crate) fn configured<T: Params + Default>(settings: &Settings) -> Result<T, 
     Ok(params)
 }
 
-/// An entry for a planner that repairs its answers.
-macro_rules! replans {
-    ($key:literal, $planner:ty, $params:ty, $source:literal) => {
+/// An entry: `replans` for a planner that repairs its answers, `plans` for one that starts over.
+macro_rules! entry {
+    (replans $key:literal, $planner:ty, $params:ty, $source:literal) => {
+        entry!(@ true, $key, $planner, $params, $source, |planner| planner)
+    };
+    (plans $key:literal, $planner:ty, $params:ty, $source:literal) => {
+        entry!(@ false, $key, $planner, $params, $source, pf_core::FromScratch)
+    };
+    (@ $replans:literal, $key:literal, $planner:ty, $params:ty, $source:literal, $wrap:expr) => {
         $crate::Entry {
             key: $key,
             source: $source,
             parameters: <$params as pf_core::Params>::KEYS,
-            replans: true,
+            replans: $replans,
             make: |settings| {
                 let params: $params = $crate::entry::configured(settings)?;
-                Ok(Box::new(<$planner>::new(params)?))
+                let planner = <$planner>::new(params)?;
+                Ok(Box::new($wrap(planner)))
             },
         }
     };
 }
 
-/// An entry for a planner that starts over after every change.
-macro_rules! plans {
-    ($key:literal, $planner:ty, $params:ty, $source:literal) => {
-        $crate::Entry {
-            key: $key,
-            source: $source,
-            parameters: <$params as pf_core::Params>::KEYS,
-            replans: false,
-            make: |settings| {
-                let params: $params = $crate::entry::configured(settings)?;
-                Ok(Box::new(pf_core::FromScratch(<$planner>::new(params)?)))
-            },
-        }
-    };
-}
-
-pub(crate) use {plans, replans};
+pub(crate) use entry;
 
 /// There is no planner of that name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -171,7 +164,9 @@ impl UnknownPlanner {
             .max_by(|a, b| a.0.total_cmp(&b.0));
         Self {
             asked: asked.to_owned(),
-            near: nearest.filter(|(likeness, _)| *likeness > 0.75).map(|(_, key)| key),
+            near: nearest
+                .filter(|(likeness, _)| *likeness > 0.75)
+                .map(|(_, key)| key),
             known,
         }
     }

@@ -1,7 +1,7 @@
 use crate::{Faith, FromScene, Line, Scene};
 use pf_core::{
-    Budget, Claims, Context, InvalidProblem, Note, Outcome, Problem, Replanner, Report,
-    Stats, Stop, Trace, Unsupported,
+    Budget, Claims, Context, InvalidProblem, Note, Outcome, Problem, Replanner, Report, Stats,
+    Stop, Trace, Unsupported,
 };
 use pf_grid::GridChange;
 use pf_render::Recorder;
@@ -104,7 +104,7 @@ impl<P: FromScene> On<P> {
     }
 }
 
-fn context<'a, P: Problem>(order: Order<'a>) -> Context<'a, P>
+fn context<P: Problem>(order: Order<'_>) -> Context<'_, P>
 where
     Recorder: Trace<P>,
 {
@@ -115,12 +115,7 @@ where
     }
 }
 
-fn answer<P: FromScene>(
-    problem: &P,
-    faith: Faith,
-    report: Report<P>,
-    latency: Duration,
-) -> Answer {
+fn answer<P: FromScene>(problem: &P, faith: Faith, report: Report<P>, latency: Duration) -> Answer {
     let outcome = match faith {
         Faith::Exact => report.outcome,
         Faith::Converted => report.outcome.converted(),
