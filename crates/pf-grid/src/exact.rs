@@ -1,4 +1,4 @@
-use crate::{Cell, End, Grid, GridProblem, Search, Word};
+use crate::{Cell, End, GridProblem, Search, Weights, Word};
 use pf_core::{Context, Stamp};
 
 /// A [`Search`] from start to goal in the narrowest word that orders its paths exactly.
@@ -108,13 +108,14 @@ fn find<W: Word>(
     guided: bool,
     cx: &mut Context<'_, GridProblem>,
 ) -> Option<Found> {
-    let grid: &Grid = problem.grid();
+    let grid = problem.grid();
     let (start, goal) = (problem.start(), problem.goal());
-    if !Search::<W>::fits(grid) {
+    let weights = Weights::of(grid);
+    if !weights.fit::<W>(grid, 1) {
         return None;
     }
     let end = if guided {
-        let octile = Search::octile(grid, problem.moves(), goal);
+        let octile = weights.octile(grid, problem.moves(), goal);
         search.run(problem, start, Some(goal), octile, cx)
     } else {
         search.run(problem, start, Some(goal), |_| W::default(), cx)
