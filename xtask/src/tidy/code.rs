@@ -37,7 +37,7 @@ pub(super) fn check(packages: &[Package], sources: &[Source]) -> Result<Vec<Find
         findings.extend(length(source));
         let all = tokens(source, true)?;
         findings.extend(no_unsafe(&source.path, &all));
-        findings.extend(expect_not_allow(&source.path, &all));
+        findings.extend(silenced_without_reason(&source.path, &all));
         let Some(package) = package_of(source, packages) else {
             continue;
         };
@@ -147,17 +147,30 @@ fn no_unsafe(path: &str, tokens: &[Token]) -> Vec<Finding> {
         .collect()
 }
 
-fn expect_not_allow(path: &str, tokens: &[Token]) -> Vec<Finding> {
-    let what = "write `#[expect(…, reason = \"…\")]`, which tells when it is no longer needed";
-    let found = tokens.windows(3).filter(|window| {
-        matches!(
-            [&*window[0].text, &*window[1].text, &*window[2].text],
-            ["[", "allow", "("]
-        )
-    });
-    found
-        .map(|window| Finding::new("expect-not-allow", path, window[1].line, what))
-        .collect()
+/// `#[expect(…, reason = "…")]` tells when it is no longer needed; where a macro's text needs
+/// `#[allow]`, it gives a reason too.
+fn silenced_without_reason(path: &str, tokens: &[Token]) -> Vec<Finding> {
+    let text = |at: usize| tokens.get(at).map_or("", |token| &*token.text);
+    let mut findings = Vec::new();
+    for at in 1..tokens.len() {
+        if text(at - 1) != "[" || !matches!(text(at), "allow" | "expect") || text(at + 1) != "(" {
+            continue;
+        }
+        let words = tokens[at..].iter().map(|token| &*token.text);
+        if !words
+            .take_while(|word| *word != "]")
+            .any(|word| word == "reason")
+        {
+            let what = "a lint is silenced by `#[expect(…, reason = \"…\")]`";
+            findings.push(Finding::new(
+                "silence-gives-a-reason",
+                path,
+                tokens[at].line,
+                what,
+            ));
+        }
+    }
+    findings
 }
 
 /// (5) No clock, entropy, file, environment, print, `HashMap`.
@@ -303,8 +316,12 @@ mod tests {
     #[test]
     fn unsafe_and_allow_are_seen_in_tests_too() {
         let text = "#[cfg(test)] mod t { #[allow(dead_code)] fn f() { unsafe {} } }";
-        assert_eq!(rules(text), [("no-unsafe", 1), ("expect-not-allow", 1)]);
+        assert_eq!(
+            rules(text),
+            [("no-unsafe", 1), ("silence-gives-a-reason", 1)]
+        );
         assert_eq!(rules("#![forbid(unsafe_code)] // unsafe"), []);
+        assert_eq!(rules("#[expect(dead_code, reason = \"x\")] fn f() {}"), []);
     }
 
     #[test]
