@@ -35,6 +35,7 @@ mod layout;
 mod moves;
 mod problem;
 mod search;
+mod weights;
 mod word;
 
 pub use buckets::Buckets;
@@ -48,4 +49,5 @@ pub use layout::Layout;
 pub use moves::{DIRECTIONS, Moves};
 pub use problem::{GridChange, GridProblem};
 pub use search::{End, Search};
+pub use weights::Weights;
 pub use word::Word;

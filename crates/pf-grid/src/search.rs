@@ -1,7 +1,7 @@
 //! The best-first search that Dijkstra, A* and their kin share.
 
 use crate::{
-    Buckets, Cell, Grid, GridProblem, Layout, Moves, Word,
+    Buckets, Cell, Grid, GridProblem, Layout, Moves, Weights, Word,
     canonical::{Successors, successors},
 };
 use pf_core::Context;
@@ -50,62 +50,7 @@ pub struct Search<W: Copy> {
     layout: Option<Layout>,
 }
 
-/// What an inner loop needs to know of a problem.
-#[derive(Clone, Copy, Debug)]
-struct Terms {
-    moves: Moves,
-    /// What a straight step weighs in units of [`Word::STRAIGHT`]: 1, or with terrain the sum of
-    /// the two cells' costs.
-    least_unit: u32,
-    most_unit: u32,
-    uniform: bool,
-}
-
-impl Terms {
-    fn of(grid: &Grid, moves: Moves) -> Self {
-        let uniform = grid.is_uniform();
-        let (least, most) = grid.cost_range();
-        Self {
-            moves,
-            least_unit: if uniform { 1 } else { 2 * u32::from(least) },
-            most_unit: if uniform { 1 } else { 2 * u32::from(most) },
-            uniform,
-        }
-    }
-}
-
 impl<W: Word> Search<W> {
-    /// The heuristic of A*: the weight of the shortest way to `goal` if nothing stood in it. It is
-    /// consistent for every move rule.
-    pub fn octile(grid: &Grid, moves: Moves, goal: Cell) -> impl Fn(u32) -> W + use<W> {
-        let unit = Terms::of(grid, moves).least_unit;
-        let layout = *grid.layout();
-        let goal = layout.position(layout.id(goal));
-        let straight = W::STRAIGHT.times(unit);
-        // A diagonal step saves this much against two straight ones.
-        let saved = match moves {
-            Moves::Orthogonal => W::default(),
-            _ => straight + straight - W::DIAGONAL.times(unit),
-        };
-        move |id| {
-            let (x, y) = layout.position(id);
-            let (dx, dy) = (x.abs_diff(goal.0), y.abs_diff(goal.1));
-            // Less two comparisons than the sum over the longer and the shorter side.
-            let all = straight.times(dx) + straight.times(dy);
-            all - saved.times(dx.min(dy))
-        }
-    }
-
-    /// Whether the weights of any path and heuristic below [`Word::LIMIT`] fit the word.
-    #[must_use]
-    pub fn fits(grid: &Grid) -> bool {
-        let unit = u128::from(Terms::of(grid, Moves::Always).most_unit);
-        let across = u128::from(grid.width()) + u128::from(grid.height());
-        let heuristic = across * W::STRAIGHT.wide() * unit;
-        let step = W::DIAGONAL.wide() * unit;
-        W::LIMIT.wide() + heuristic + 4 * step <= W::MAX.wide()
-    }
-
     /// Searches from `start` to `goal`, or everywhere if there is none, in the order of weight
     /// plus `heuristic`. The heuristic takes ids and must be consistent.
     pub fn run(
@@ -117,7 +62,8 @@ impl<W: Word> Search<W> {
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let grid = problem.grid();
-        let terms = Terms::of(grid, problem.moves());
+        let weights = Weights::of(grid);
+        let moves = problem.moves();
         self.begin(grid.layout());
         if !grid.is_free(start) {
             return End::Exhausted;
@@ -126,9 +72,9 @@ impl<W: Word> Search<W> {
         let start = layout.id(start);
         let first = heuristic(start);
         // One step changes the key by its weight and the heuristic by no more than that.
-        let reach = W::DIAGONAL.times(2 * terms.most_unit);
-        let shift = width(W::STRAIGHT.times(terms.least_unit));
-        self.open.reset(first, reach, shift);
+        let reach = weights.reach();
+
+        self.open.reset(first, reach, weights.shift::<W>());
         self.records[start as usize] = Record {
             g: W::default(),
             generation: self.generation,
@@ -137,16 +83,20 @@ impl<W: Word> Search<W> {
         };
         self.open.push(first, start, W::default());
         let goal = goal.map_or(u32::MAX, |cell| layout.id(cell));
-        if terms.uniform {
+        if weights.is_uniform() {
             let pruned = Pruned {
                 grid,
-                moves: terms.moves,
-                successors: successors(terms.moves),
+                moves,
+                successors: successors(moves),
             };
             self.search(layout, goal, heuristic, &pruned, cx)
         } else {
-            let moves = terms.moves;
-            self.search(layout, goal, heuristic, &Weighed { grid, moves }, cx)
+            let weighed = Weighed {
+                grid,
+                moves,
+                weights,
+            };
+            self.search(layout, goal, heuristic, &weighed, cx)
         }
     }
 
@@ -288,11 +238,6 @@ impl<W: Word> Search<W> {
     }
 }
 
-/// Buckets half as wide as the cheapest step: what a popped cell pushes mostly lies beyond.
-fn width<W: Word>(step: W) -> u32 {
-    step.wide().ilog2() - 1
-}
-
 /// Where the search goes on from a cell, and at what weight.
 trait Steps<W> {
     /// Whether the successors depend on the arrivals.
@@ -335,6 +280,7 @@ impl<W: Word> Steps<W> for Pruned<'_> {
 struct Weighed<'g> {
     grid: &'g Grid,
     moves: Moves,
+    weights: Weights,
 }
 
 impl<W: Word> Steps<W> for Weighed<'_> {
@@ -347,8 +293,6 @@ impl<W: Word> Steps<W> for Weighed<'_> {
 
     #[inline]
     fn weight(&self, from: u32, to: u32, k: u32) -> W {
-        let unit = u32::from(self.grid.cost_id(from)) + u32::from(self.grid.cost_id(to));
-        let length = if k < 4 { W::STRAIGHT } else { W::DIAGONAL };
-        length.times(unit)
+        self.weights.step(self.grid, from, to, k)
     }
 }
