@@ -1,15 +1,15 @@
-use crate::{Cell, End, GridProblem, Search, Weights, Word};
-use pf_core::{Context, Stamp};
+use crate::{Cell, End, GridProblem, Layout, Search, Weights, Word};
+use pf_core::Context;
 
 /// A [`Search`] from start to goal in the narrowest word that orders its paths exactly.
 ///
 /// It begins in 32 bits; where a path turns out to be longer than they can order (some 47,000
 /// cells, less with terrain), the query is searched again in 64, then in 128, and later queries on
-/// the same map begin there. Only one width is kept in memory.
+/// a grid of that shape begin there. Only one width is kept in memory.
 #[derive(Clone, Debug)]
 pub struct ExactSearch {
     width: Width,
-    map: Option<Stamp>,
+    layout: Option<Layout>,
 }
 
 #[derive(Clone, Debug)]
@@ -34,7 +34,7 @@ impl Default for ExactSearch {
     fn default() -> Self {
         Self {
             width: Width::Narrow(Search::default()),
-            map: None,
+            layout: None,
         }
     }
 }
@@ -49,11 +49,9 @@ impl ExactSearch {
         cx: &mut Context<'_, GridProblem>,
     ) -> Found {
         let grid = problem.grid();
-        if self.map != Some(grid.stamp()) {
-            self.map = Some(grid.stamp());
-            if !matches!(self.width, Width::Narrow(_)) {
-                *self = Self::default();
-            }
+        if self.layout != Some(*grid.layout()) {
+            self.width = Width::Narrow(Search::default());
+            self.layout = Some(*grid.layout());
         }
         loop {
             let found = match &mut self.width {
