@@ -1,0 +1,19 @@
+//! Worlds of shapes in the plane.
+
+mod index;
+mod problem;
+mod segment;
+mod shape;
+mod visibility;
+mod world;
+
+pub use problem::{WorldChange, WorldProblem};
+pub use segment::{Segment, cross, point_to_box};
+pub use shape::{Circle, Polygon, Rectangle, Shape, TOUCH};
+pub use visibility::{Answer, Bend, Route, TangentGraph};
+pub use world::{ShapeId, World};
+
+/// A point of the plane.
+pub type Point = nalgebra::Point2<f64>;
+/// A vector of the plane.
+pub type Vector = nalgebra::Vector2<f64>;
