@@ -104,9 +104,16 @@ impl fmt::Display for Place {
 /// Quotes what a file holds, on one line and not too long.
 pub(crate) fn quoted(text: &str) -> String {
     const MOST: usize = 48;
-    let mut shown: String = text.chars().take(MOST).collect();
-    if shown.len() < text.len() {
+    let mut shown = String::from("\"");
+    for c in text.chars().take(MOST) {
+        match c {
+            '\'' => shown.push(c),
+            _ => shown.extend(c.escape_debug()),
+        }
+    }
+    if text.chars().nth(MOST).is_some() {
         shown.push('…');
     }
-    format!("\"{}\"", shown.escape_debug())
+    shown.push('"');
+    shown
 }

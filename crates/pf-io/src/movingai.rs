@@ -54,7 +54,7 @@ pub fn parse_movingai(name: &str, bytes: &[u8]) -> Result<Grid, FileError> {
             Some([word, number]) if word == key => number.parse::<u64>().ok(),
             _ => None,
         }
-        .ok_or_else(|| header(found, lines.line, &format!("\"{key}\" and a number")))?;
+        .ok_or_else(|| header(found, [2, 3][k], &format!("\"{key}\" and a number")))?;
     }
     let [height, width] = size;
     let (width, height) = Grid::check_size(width, height).map_err(|_| {

@@ -199,8 +199,9 @@ impl Scen {
                 10f64.powi(row.optimum.log10().floor() as i32 + 1 - digits)
             }
         };
-        // Half a unit, and a little for the sums by which the benchmark's optima were found.
-        (length - row.optimum).abs() <= 0.51 * unit
+        // Half a unit, a little for the sums by which the benchmark's optima were found, and what a
+        // sqrt 2 of ten digits loses over the path, as in the files with eight decimals.
+        (length - row.optimum).abs() <= 0.51 * unit + 4e-10 * length
     }
 
     /// Checks that the rows are about a map of this size.
