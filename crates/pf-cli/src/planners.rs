@@ -46,7 +46,11 @@ impl Described {
             title: entry.name(),
             problem: entry.problem(),
             claims: words(entry.claims()),
-            replans: if entry.replans() { "repairs" } else { "from scratch" },
+            replans: if entry.replans() {
+                "repairs"
+            } else {
+                "from scratch"
+            },
             paper: entry.source(),
             parameters: entry.parameters().iter().map(parameter).collect(),
         }
@@ -70,16 +74,24 @@ pub(crate) fn act(args: &Args) -> Result<Status, Failure> {
     let described = all().map(Described::of);
     if args.json {
         for planner in described {
-            let line = serde_json::to_string(&planner).map_err(|e| Failure::Internal(e.to_string()))?;
+            let line =
+                serde_json::to_string(&planner).map_err(|e| Failure::Internal(e.to_string()))?;
             writeln!(out, "{line}")?;
         }
         return Ok(Status::Done);
     }
     let mut table = Table::new();
     table
-        .load_preset(presets::UTF8_HORIZONTAL_ONLY)
+        .load_style(presets::UTF8_FULL_CONDENSED)
         .set_content_arrangement(ContentArrangement::Dynamic)
-        .set_header(["name", "problem", "claims", "after a change", "paper", "parameters (--set)"]);
+        .set_header([
+            "name",
+            "problem",
+            "claims",
+            "after a change",
+            "paper",
+            "parameters (--set)",
+        ]);
     for planner in described {
         let parameters: Vec<_> = planner
             .parameters
@@ -94,6 +106,10 @@ pub(crate) fn act(args: &Args) -> Result<Status, Failure> {
             planner.paper,
             &parameters.join("\n"),
         ]);
+    }
+    if table.width().is_none() {
+        // No terminal to fit: a page's width.
+        table.set_width(110);
     }
     writeln!(out, "{table}")?;
     Ok(Status::Done)

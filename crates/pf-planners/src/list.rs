@@ -1,12 +1,13 @@
 //! The list itself.
 
 use crate::{AnyEntry, Entry, UnknownPlanner, entry::entry};
-use pf_classic::{AStar, AStarParams, Dijkstra, DijkstraParams};
+use pf_classic::{AStar, AStarParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams};
 use pf_grid::GridProblem;
 
 static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
     entry!(plans "astar", AStar, AStarParams, "Hart, Nilsson, Raphael 1968"),
+    entry!(replans "d-star-lite", DStarLite, DStarLiteParams, "Koenig, Likhachev 2002"),
 ];
 
 /// The planners on grids, each as a replanner; those that only plan start over

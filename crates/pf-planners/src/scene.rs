@@ -22,13 +22,18 @@ impl Scene {
     /// # Errors
     /// [`InvalidProblem`] if either cell lies outside the map.
     pub fn new(map: impl Into<Arc<Grid>>, from: Cell, to: Cell) -> Result<Self, InvalidProblem> {
-        let asked = GridProblem::new(map, from, to)?;
-        Ok(Self {
-            posed: asked.clone(),
-            asked,
+        Ok(Self::of(GridProblem::new(map, from, to)?))
+    }
+
+    /// What a problem asks, for a robot that is a point.
+    #[must_use]
+    pub fn of(problem: GridProblem) -> Self {
+        Self {
+            posed: problem.clone(),
+            asked: problem,
             radius: 0.0,
             inflated: None,
-        })
+        }
     }
 
     /// The same under other moves.

@@ -55,11 +55,11 @@ impl Page {
 
     /// A line's width: visible on any map, slim on a small one.
     fn pen(&self) -> f64 {
-        (self.scale * 0.22).clamp(2.0, 5.0)
+        (self.scale * 0.25).clamp(2.5, 6.0)
     }
 
     fn marker(&self) -> f64 {
-        (self.scale * 0.36).clamp(6.0, 11.0)
+        (self.scale * 0.36).clamp(8.0, 12.0)
     }
 }
 
