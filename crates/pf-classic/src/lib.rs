@@ -1,1 +1,7 @@
 //! Dijkstra, A* and D* Lite on grids: exact, proven and fast.
+
+mod best_first;
+mod d_star_lite;
+
+pub use best_first::{AStar, AStarParams, Dijkstra, DijkstraParams, SearchParams};
+pub use d_star_lite::{DStarLite, DStarLiteParams};

@@ -1,4 +1,4 @@
-use crate::{Cell, DIRECTIONS, GridCost, Layout, Moves};
+use crate::{Cell, DIRECTIONS, GridChange, GridCost, Layout, Moves};
 use pf_core::{InvalidProblem, Stamp};
 use std::fmt;
 
@@ -243,6 +243,35 @@ impl Grid {
         })
     }
 
+    /// Refuses a cell that is not there.
+    pub(crate) fn check_cell(&self, what: &'static str, cell: Cell) -> Result<(), InvalidProblem> {
+        if self.layout.contains(cell) {
+            return Ok(());
+        }
+        Err(InvalidProblem::OutOfBounds {
+            what: what.into(),
+            place: cell.to_string(),
+            world: format!("{} x {}", self.width(), self.height()),
+        })
+    }
+
+    /// Refuses a change that makes no sense here.
+    pub(crate) fn check_change(&self, change: &GridChange) -> Result<(), InvalidProblem> {
+        match change {
+            GridChange::StartMoved(cell) => self.check_cell("the new start", *cell),
+            GridChange::GoalMoved(cell) => self.check_cell("the new goal", *cell),
+            GridChange::Blocked(cells) | GridChange::Freed(cells) => cells
+                .iter()
+                .try_for_each(|&cell| self.check_cell("the changed cell", cell)),
+            GridChange::CostChanged(cells, cost) => {
+                check_cost(*cost)?;
+                cells
+                    .iter()
+                    .try_for_each(|&cell| self.check_cell("the changed cell", cell))
+            }
+        }
+    }
+
     /// Blocks or frees a cell; says whether that changed anything.
     pub(crate) fn set_free(&mut self, cell: Cell, free: bool) -> bool {
         let id = self.layout.id(cell);
@@ -299,7 +328,7 @@ impl Grid {
     }
 }
 
-pub(crate) fn check_cost(cost: u8) -> Result<(), InvalidProblem> {
+fn check_cost(cost: u8) -> Result<(), InvalidProblem> {
     if (1..=254).contains(&cost) {
         return Ok(());
     }

@@ -23,16 +23,31 @@
 //! assert!(problem.judge(&path).is_err());
 //! ```
 
+mod buckets;
+mod canonical;
 mod cell;
+mod clearance;
 mod cost;
+mod exact;
 mod grid;
+mod inflated;
 mod layout;
 mod moves;
 mod problem;
+mod search;
+mod weights;
+mod word;
 
+pub use buckets::Buckets;
 pub use cell::Cell;
+pub use clearance::Clearance;
 pub use cost::GridCost;
+pub use exact::{ExactSearch, Found};
 pub use grid::Grid;
+pub use inflated::Inflated;
 pub use layout::Layout;
 pub use moves::{DIRECTIONS, Moves};
 pub use problem::{GridChange, GridProblem};
+pub use search::{End, Search};
+pub use weights::Weights;
+pub use word::Word;

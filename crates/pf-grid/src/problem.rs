@@ -1,4 +1,4 @@
-use crate::{Cell, DIRECTIONS, Grid, GridCost, Moves, grid::check_cost};
+use crate::{Cell, DIRECTIONS, Grid, GridCost, Moves};
 use pf_core::{InvalidProblem, Problem, Stamp, Violation};
 use std::sync::Arc;
 
@@ -47,8 +47,8 @@ impl GridProblem {
             goal,
             stamp: Stamp::fresh(),
         };
-        problem.check("start", start)?;
-        problem.check("goal", goal)?;
+        problem.grid.check_cell("start", start)?;
+        problem.grid.check_cell("goal", goal)?;
         Ok(problem)
     }
 
@@ -88,17 +88,6 @@ impl GridProblem {
     #[must_use]
     pub fn goal(&self) -> Cell {
         self.goal
-    }
-
-    fn check(&self, what: &'static str, cell: Cell) -> Result<(), InvalidProblem> {
-        if self.grid.layout().contains(cell) {
-            return Ok(());
-        }
-        Err(InvalidProblem::OutOfBounds {
-            what: what.into(),
-            place: cell.to_string(),
-            world: format!("{} x {}", self.grid.width(), self.grid.height()),
-        })
     }
 }
 
@@ -145,18 +134,7 @@ impl Problem for GridProblem {
     fn apply(&mut self, changes: &[GridChange]) -> Result<(), InvalidProblem> {
         use GridChange::{Blocked, CostChanged, Freed, GoalMoved, StartMoved};
         for change in changes {
-            match change {
-                StartMoved(cell) => self.check("the new start", *cell)?,
-                GoalMoved(cell) => self.check("the new goal", *cell)?,
-                Blocked(cells) | Freed(cells) | CostChanged(cells, _) => {
-                    for &cell in cells {
-                        self.check("the changed cell", cell)?;
-                    }
-                }
-            }
-            if let CostChanged(_, cost) = change {
-                check_cost(*cost)?;
-            }
+            self.grid.check_change(change)?;
         }
         let mut anything = false;
         for change in changes {

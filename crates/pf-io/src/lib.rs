@@ -1,1 +1,46 @@
-//! Empty so far.
+//! Maps and scenarios in and out. Every reader takes a path, or a name and bytes; every error is a
+//! [`FileError`] that names the file, the place in it, what was found and what was expected.
+//! Nothing panics, nothing is allocated on a header's word, nothing is written by halves.
+//!
+//! | format | read | write |
+//! | --- | --- | --- |
+//! | any grid map | [`load_grid`] | |
+//! | Moving AI `.map` | [`read_movingai`] | [`write_movingai`] |
+//! | Moving AI `.scen` | [`read_scen`] | [`write_scen`] |
+//! | ROS `map_server` YAML with PGM or PNG | [`read_ros`] | [`write_ros`] |
+//! | PNG, PGM | [`read_image`] | [`write_png`], [`write_pgm`] |
+//! | scenario TOML | [`read_scenario`] | |
+//! | paths | | [`write_path_csv`], [`write_path_json`] |
+//!
+//! ```no_run
+//! use pf_io::{LoadOptions, load_grid};
+//! let map = load_grid("maps/grids/office.yaml".as_ref(), &LoadOptions::default())?;
+//! println!("{} of {} cells are free", map.grid.free_cells(), map.grid.width() * map.grid.height());
+//! # Ok::<(), pf_io::FileError>(())
+//! ```
+
+mod error;
+mod map;
+mod movingai;
+mod path;
+mod pgm;
+mod png;
+mod raster;
+mod ros;
+mod scen;
+pub mod scenario;
+mod source;
+mod toml_tree;
+mod write;
+
+pub use error::{FileError, Place};
+pub use map::{Frame, GridMap, LoadOptions, Unknown, load_grid};
+pub use movingai::{parse_movingai, read_movingai, write_movingai};
+pub use path::{write_path_csv, write_path_json};
+pub use pgm::{write_gray, write_pgm};
+pub use png::write_png;
+pub use raster::{parse_image, read_image};
+pub use ros::{RosMap, RosMode, parse_ros, read_ros, write_ros, write_ros_yaml};
+pub use scen::{Scen, ScenRow, parse_scen, read_scen, write_scen};
+pub use scenario::{Case, Event, Expected, Scenario, TimeUnit, parse_scenario, read_scenario};
+pub use write::whole as write_whole;

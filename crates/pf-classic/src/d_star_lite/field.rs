@@ -1,0 +1,442 @@
+//! The distance field of D* Lite, in one word width: the searches, not the bookkeeping around them.
+
+use pf_core::Context;
+use pf_grid::{Buckets, Cell, GridProblem, Layout, Weights, Word};
+use std::{cmp::Reverse, collections::BinaryHeap};
+
+/// What the field knows of a cell.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+struct Node<W> {
+    /// Distance to the goal as it was when the cell was last expanded; [`Word::MAX`] if never.
+    g: W,
+    /// One-step lookahead: the least step + g over the neighbours. [`Word::MAX`] if there is none.
+    rhs: W,
+}
+
+/// A node in memory. Packed: on large maps memory traffic is what a search waits for.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, packed(4))]
+struct Kept<W> {
+    node: Node<W>,
+    /// The plan this belongs to; others are as good as never written.
+    generation: u16,
+}
+
+/// k1 = min(g, rhs) + h + `k_m`, k2 = min(g, rhs); the id breaks ties.
+type Key<W> = (W, W, u32);
+
+/// How a search of the field ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum End {
+    /// The start's distance is known, or known to be infinite.
+    Settled,
+    /// The budget ran out. What was done so far is sound, a next repair goes on from it.
+    Cut,
+    /// Repairing has taken as much as it may.
+    GaveUp,
+}
+
+/// Distances to one goal, repaired as the map changes.
+#[derive(Clone, Debug)]
+pub(super) struct Field<W: Copy> {
+    nodes: Vec<Kept<W>>,
+    generation: u16,
+    layout: Option<Layout>,
+    weights: Option<Weights>,
+    goal: u32,
+    start: Cell,
+    /// What keys have to be raised by for the robot having moved.
+    k_m: W,
+    /// The open list of a plan from scratch: no key ever falls in one.
+    fresh: Buckets<W>,
+    /// The open list of repairs. An entry is stale if its cell is consistent or has another key.
+    repairs: BinaryHeap<Reverse<Key<W>>>,
+    /// Some distance was too long for the word and is held for infinite.
+    too_far: bool,
+}
+
+impl<W: Word> Default for Field<W> {
+    fn default() -> Self {
+        Self {
+            nodes: Vec::new(),
+            generation: 0,
+            layout: None,
+            weights: None,
+            goal: 0,
+            start: Cell::default(),
+            k_m: W::default(),
+            fresh: Buckets::default(),
+            repairs: BinaryHeap::new(),
+            too_far: false,
+        }
+    }
+}
+
+impl<W: Word> Field<W> {
+    /// Whether a field for this problem fits the word.
+    pub(super) fn fits(problem: &GridProblem) -> bool {
+        // A key is a distance, a heuristic and k_m, which stays below the limit, too.
+        Weights::of(problem.grid()).fit::<W>(problem.grid(), 2)
+    }
+
+    /// Whether the field lies over a grid of the problem's shape.
+    pub(super) fn covers(&self, problem: &GridProblem) -> bool {
+        self.layout == Some(*problem.grid().layout())
+    }
+
+    /// Whether the field can be repaired into one for `problem`.
+    pub(super) fn serves(&self, problem: &GridProblem) -> bool {
+        self.covers(problem)
+            && self.goal == problem.grid().layout().id(problem.goal())
+            && self
+                .weights
+                .is_some_and(|then| then.hold_under(Weights::of(problem.grid())))
+    }
+
+    /// Whether the answer may be wrong for want of width: the start seems out of reach, but some
+    /// distances were cut off.
+    pub(super) fn is_too_narrow(&self, start: Cell) -> bool {
+        let rhs = |layout: Layout| self.node(layout.id(start)).rhs;
+        self.too_far && self.layout.is_some_and(|layout| rhs(layout) == W::MAX)
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        self.nodes.capacity() * size_of::<Kept<W>>()
+            + self.fresh.bytes()
+            + self.repairs.capacity() * size_of::<Reverse<Key<W>>>()
+    }
+
+    /// Searches from the goal to the start, forgetting what was known: A*, whose closed cells are
+    /// consistent and whose open ones are overconsistent.
+    pub(super) fn plan(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> End {
+        let grid = problem.grid();
+        let layout = *grid.layout();
+        let weights = Weights::of(grid);
+        self.begin(layout);
+        self.weights = Some(weights);
+        self.goal = layout.id(problem.goal());
+        self.start = problem.start();
+        let start = layout.id(problem.start());
+        let heuristic = weights.octile::<W>(grid, problem.moves(), problem.start());
+        let first = heuristic(self.goal);
+        self.fresh
+            .reset(first, weights.reach(), weights.shift::<W>());
+        self.set_rhs(self.goal, W::default());
+        self.fresh.push(first, self.goal, W::default());
+
+        let offsets = layout.offsets();
+        let mut bound = W::LIMIT;
+        while let Some((id, value)) = self.fresh.pop(bound) {
+            let node = self.node(id);
+            if node.rhs != value || node.g == value {
+                continue;
+            }
+            if !cx.proceed() {
+                return End::Cut;
+            }
+            self.set_g(id, value);
+            cx.expanded(|| layout.cell(id));
+            if id == start {
+                bound = value;
+            }
+            let mut legal = problem.moves().legal(grid.around_id(id));
+            while legal != 0 {
+                let k = legal.trailing_zeros();
+                legal &= legal - 1;
+                let next = id.wrapping_add_signed(offsets[k as usize]);
+                let through = value + weights.step(grid, id, next, k);
+                if through >= W::LIMIT {
+                    self.too_far = true;
+                    continue;
+                }
+                if through < self.node(next).rhs {
+                    self.set_rhs(next, through);
+                    self.fresh.push(through + heuristic(next), next, through);
+                }
+            }
+        }
+        // What still waits there lies beyond the limit, unless the start was found first.
+        self.too_far |= bound == W::LIMIT && !self.fresh.is_empty();
+        End::Settled
+    }
+
+    /// Hands the open list of a plan over to repairs. Costs the size of the list.
+    pub(super) fn prepare(&mut self, problem: &GridProblem) {
+        if self.fresh.is_empty() {
+            return;
+        }
+        let Some(weights) = self.weights else { return };
+        let heuristic = weights.octile::<W>(problem.grid(), problem.moves(), self.start);
+        let mut open = std::mem::take(&mut self.repairs).into_vec();
+        let mut fresh = std::mem::take(&mut self.fresh);
+        open.extend(fresh.drain().filter_map(|(id, value)| {
+            let node = self.node(id);
+            let live = node.rhs == value && node.g != value;
+            live.then(|| Reverse((value + heuristic(id) + self.k_m, value, id)))
+        }));
+        self.fresh = fresh;
+        self.repairs = BinaryHeap::from(open);
+    }
+
+    /// Repairs the field after the map changed at `changed` and the robot moved to the problem's
+    /// start, expanding at most `most` cells.
+    ///
+    /// Source: Koenig and Likhachev, *D\* Lite*, 2002, the optimised version (its Figure 4).
+    pub(super) fn repair(
+        &mut self,
+        problem: &GridProblem,
+        changed: &[u32],
+        most: u64,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End {
+        self.prepare(problem);
+        let repair = Repair::of(problem, self.weights);
+        let moved = repair.between(self.start, problem.start());
+        if self.k_m + moved >= W::LIMIT {
+            return End::GaveUp;
+        }
+        self.k_m = self.k_m + moved;
+        self.start = problem.start();
+        // A changed cell changes its own edges and the diagonals that pass it.
+        for &id in changed {
+            self.look_ahead(&repair, id);
+            for offset in repair.offsets {
+                self.look_ahead(&repair, id.wrapping_add_signed(offset));
+            }
+        }
+
+        let start = repair.layout.id(problem.start());
+        let mut expanded = 0;
+        while let Some(&Reverse(top)) = self.repairs.peek() {
+            let node = self.node(start);
+            let (key, wanted) = (self.key(&repair, start), (top.0, top.1));
+            if wanted >= (key.0, key.1) && node.rhs <= node.g {
+                break;
+            }
+            let id = top.2;
+            let node = self.node(id);
+            if node.g == node.rhs {
+                self.repairs.pop();
+                continue;
+            }
+            let key = self.key(&repair, id);
+            if wanted < (key.0, key.1) {
+                self.repairs.pop();
+                self.repairs.push(Reverse(key));
+                continue;
+            }
+            if expanded == most {
+                return End::GaveUp;
+            }
+            if !cx.proceed() {
+                return End::Cut;
+            }
+            self.repairs.pop();
+            expanded += 1;
+            cx.expanded(|| repair.layout.cell(id));
+            if node.g > node.rhs {
+                self.lower(&repair, id);
+            } else {
+                self.raise(&repair, id);
+            }
+        }
+        End::Settled
+    }
+
+    /// An overconsistent cell takes its new distance, and its neighbours look at it.
+    fn lower(&mut self, repair: &Repair<'_>, id: u32) {
+        let value = self.node(id).rhs;
+        self.set_g(id, value);
+        for (next, weight) in repair.steps::<W>(id) {
+            let through = self.capped(value + weight);
+            if through < self.node(next).rhs {
+                self.set_rhs(next, through);
+                self.queue(repair, next);
+            }
+        }
+    }
+
+    /// An underconsistent cell loses its distance, and those who relied on it look elsewhere.
+    fn raise(&mut self, repair: &Repair<'_>, id: u32) {
+        let old = self.node(id).g;
+        self.set_g(id, W::MAX);
+        for (next, weight) in repair.steps::<W>(id) {
+            if self.node(next).rhs == old + weight {
+                self.look_ahead(repair, next);
+            }
+        }
+        self.look_ahead(repair, id);
+    }
+
+    /// Computes a cell's rhs anew.
+    fn look_ahead(&mut self, repair: &Repair<'_>, id: u32) {
+        if id != self.goal {
+            let mut rhs = W::MAX;
+            for (next, weight) in repair.steps::<W>(id) {
+                let g = self.node(next).g;
+                if g != W::MAX {
+                    rhs = rhs.min(g + weight);
+                }
+            }
+            let rhs = if rhs == W::MAX { rhs } else { self.capped(rhs) };
+            self.set_rhs(id, rhs);
+        }
+        self.queue(repair, id);
+    }
+
+    fn queue(&mut self, repair: &Repair<'_>, id: u32) {
+        let node = self.node(id);
+        if node.g != node.rhs {
+            self.repairs.push(Reverse(self.key(repair, id)));
+        }
+    }
+
+    fn key(&self, repair: &Repair<'_>, id: u32) -> Key<W> {
+        let node = self.node(id);
+        let least = node.g.min(node.rhs);
+        if least == W::MAX {
+            return (W::MAX, W::MAX, id);
+        }
+        let cell = repair.layout.cell(id);
+        (
+            least + repair.between(self.start, cell) + self.k_m,
+            least,
+            id,
+        )
+    }
+
+    /// What lies too far for the word counts as out of reach.
+    fn capped(&mut self, value: W) -> W {
+        if value < W::LIMIT {
+            return value;
+        }
+        self.too_far = true;
+        W::MAX
+    }
+
+    /// Downhill from the start: each step to the neighbour through which the goal is nearest; of
+    /// equally good ones the first in the order of [`DIRECTIONS`](pf_grid::DIRECTIONS). `None` if
+    /// the goal is out of reach.
+    pub(super) fn path(&self, problem: &GridProblem) -> Option<Vec<Cell>> {
+        let repair = Repair::of(problem, self.weights);
+        let mut id = repair.layout.id(problem.start());
+        let weight = self.node(id).rhs;
+        if weight == W::MAX {
+            return None;
+        }
+        // Every step weighs at least as much as a straight one.
+        let mut path = Vec::with_capacity(weight.over(W::STRAIGHT) + 1);
+        path.push(problem.start());
+        // A field that is not what it should be must not send the robot in circles.
+        while id != self.goal && path.len() <= self.nodes.len() {
+            let mut best = (W::MAX, id);
+            for (next, weight) in repair.steps::<W>(id) {
+                let g = self.node(next).g;
+                if g != W::MAX && g + weight < best.0 {
+                    best = (g + weight, next);
+                }
+            }
+            if best.1 == id {
+                break;
+            }
+            id = best.1;
+            path.push(repair.layout.cell(id));
+        }
+        Some(path)
+    }
+
+    fn begin(&mut self, layout: Layout) {
+        if self.layout != Some(layout) {
+            self.layout = Some(layout);
+            self.nodes.clear();
+            self.nodes.resize(layout.len(), Kept::default());
+            self.generation = 0;
+        }
+        if self.generation == u16::MAX {
+            self.nodes.fill(Kept::default());
+            self.generation = 0;
+        }
+        self.generation += 1;
+        self.repairs.clear();
+        self.k_m = W::default();
+        self.too_far = false;
+    }
+
+    #[inline]
+    fn node(&self, id: u32) -> Node<W> {
+        let kept = self.nodes[id as usize];
+        if kept.generation == self.generation {
+            return kept.node;
+        }
+        Node {
+            g: W::MAX,
+            rhs: W::MAX,
+        }
+    }
+
+    #[inline]
+    fn set_g(&mut self, id: u32, g: W) {
+        let node = Node { g, ..self.node(id) };
+        self.keep(id, node);
+    }
+
+    #[inline]
+    fn set_rhs(&mut self, id: u32, rhs: W) {
+        let node = Node {
+            rhs,
+            ..self.node(id)
+        };
+        self.keep(id, node);
+    }
+
+    #[inline]
+    fn keep(&mut self, id: u32, node: Node<W>) {
+        let generation = self.generation;
+        self.nodes[id as usize] = Kept { node, generation };
+    }
+}
+
+/// What a repair needs to know of the problem.
+struct Repair<'p> {
+    problem: &'p GridProblem,
+    layout: Layout,
+    offsets: [i32; 8],
+    weights: Weights,
+}
+
+impl<'p> Repair<'p> {
+    /// By the weights of the field, whose keys the repair must go on from.
+    fn of(problem: &'p GridProblem, weights: Option<Weights>) -> Self {
+        let layout = *problem.grid().layout();
+        Self {
+            problem,
+            layout,
+            offsets: layout.offsets(),
+            weights: weights.unwrap_or_else(|| Weights::of(problem.grid())),
+        }
+    }
+
+    /// The cells one step away, and what the step weighs: none from a blocked cell.
+    fn steps<W: Word>(&self, id: u32) -> impl Iterator<Item = (u32, W)> + '_ {
+        let grid = self.problem.grid();
+        let legal = if grid.is_free_id(id) {
+            self.problem.moves().legal(grid.around_id(id))
+        } else {
+            0
+        };
+        (0..8)
+            .filter(move |k| legal >> k & 1 == 1)
+            .map(move |k: u32| {
+                let next = id.wrapping_add_signed(self.offsets[k as usize]);
+                (next, self.weights.step(grid, id, next, k))
+            })
+    }
+
+    /// The heuristic between two cells.
+    fn between<W: Word>(&self, a: Cell, b: Cell) -> W {
+        let grid = self.problem.grid();
+        let octile = self.weights.octile::<W>(grid, self.problem.moves(), a);
+        octile(self.layout.id(b))
+    }
+}

@@ -1,0 +1,142 @@
+//! Every answer beside the oracle's: thousands of made-up maps, tens of thousands of changes.
+
+use pf_classic::{AStar, DStarLite, DStarLiteParams, Dijkstra};
+use pf_conformance::{
+    grid::{Recipe, drawing, oracle, random_batch, random_problem},
+    seeded,
+};
+use pf_core::{Context, Outcome, Planner, Problem, Replanner, Report};
+use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem};
+use rand::RngExt;
+
+/// The proven cost, or the proof that there is none; the judge confirms it.
+#[track_caller]
+fn proven(problem: &GridProblem, report: &Report<GridProblem>) -> Option<GridCost> {
+    match &report.outcome {
+        Outcome::Optimal(best) => {
+            assert_eq!(problem.judge(&best.solution), Ok(best.cost));
+            Some(best.cost)
+        }
+        Outcome::Infeasible => None,
+        other => panic!("{other:?} proves nothing on\n{}", drawing(problem)),
+    }
+}
+
+#[test]
+fn searches_are_exact_on_made_up_maps() {
+    let mut rng = seeded(20);
+    let (mut astar, mut dijkstra) = (AStar::default(), Dijkstra::default());
+    for round in 0..20_000 {
+        let recipe = Recipe::any(&mut rng, 1..=if round % 20 == 0 { 60 } else { 16 });
+        let problem = random_problem(&mut rng, &recipe);
+        let expected = oracle(&problem);
+        let planners: [&mut dyn Planner<GridProblem>; 2] = [&mut astar, &mut dijkstra];
+        for planner in planners {
+            let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+            let found = proven(&problem, &report);
+            let name = planner.name();
+            assert_eq!(
+                found,
+                expected,
+                "{name}, round {round}:\n{}",
+                drawing(&problem)
+            );
+        }
+    }
+}
+
+/// Plays `stories` random stories of `batches` batches each and returns how often the planner
+/// repaired.
+fn play(seed: u64, stories: u32, batches: u32, params: &DStarLiteParams) -> u32 {
+    let mut rng = seeded(seed);
+    let mut repaired = 0;
+    for story in 0..stories {
+        let recipe = Recipe::any(&mut rng, 5..=80);
+        let mut problem = random_problem(&mut rng, &recipe);
+        let mut planner = DStarLite::new(params.clone()).unwrap();
+        let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        assert_eq!(proven(&problem, &report), oracle(&problem));
+        for batch in 0..batches {
+            if rng.random_bool(0.3) {
+                planner.settle(&problem, &mut Context::seeded(0));
+            }
+            let most = [1, 10, 200][rng.random_range(0..3usize)];
+            let changes = random_batch(&mut rng, &problem, most);
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            repaired += u32::from(report.note("replanned") == Some("repaired"));
+            let found = proven(&problem, &report);
+            assert_eq!(
+                found,
+                oracle(&problem),
+                "seed {seed}, story {story}, batch {batch}: {changes:?} led to\n{}",
+                drawing(&problem)
+            );
+        }
+    }
+    repaired
+}
+
+#[test]
+fn d_star_lite_is_exact_after_thirty_thousand_batches() {
+    let repaired = play(30, 300, 100, &DStarLiteParams::default());
+    assert!(
+        repaired > 12_000,
+        "{repaired} repairs are too few to say much"
+    );
+}
+
+#[test]
+fn d_star_lite_is_exact_when_it_never_gives_up() {
+    let patience = f64::INFINITY;
+    let repaired = play(31, 300, 100, &DStarLiteParams { patience });
+    assert!(
+        repaired > 12_000,
+        "{repaired} repairs are too few to say much"
+    );
+}
+
+/// Every other row is a wall with a gap at alternating ends.
+fn serpentine(side: u32) -> GridProblem {
+    let grid = Grid::new(side, side, |cell| {
+        let gap = if cell.y % 4 == 1 { side - 1 } else { 0 };
+        u8::from(cell.y % 2 == 0 || cell.x == gap)
+    });
+    let last = Cell::new(side - 1, side - 2);
+    GridProblem::new(grid.unwrap(), Cell::new(0, 0), last).unwrap()
+}
+
+/// Paths too long for 32 bits to order: every search must notice and count wider.
+#[test]
+fn long_paths_are_exact() {
+    let mut problem = serpentine(320);
+    let expected = oracle(&problem);
+    assert!(expected.unwrap().value() > 50_000.0);
+    let mut dstar = DStarLite::default();
+    let mut planners: [Box<dyn Planner<GridProblem>>; 2] =
+        [Box::new(AStar::default()), Box::new(Dijkstra::default())];
+    for planner in &mut planners {
+        let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        assert_eq!(proven(&problem, &report), expected, "{}", planner.name());
+    }
+    let report = dstar.plan(&problem, &mut Context::seeded(0)).unwrap();
+    assert_eq!(proven(&problem, &report), expected);
+
+    // A shortcut near the start, then a wall that makes the way long again, then terrain.
+    for changes in [
+        GridChange::Freed(vec![Cell::new(160, 1)]),
+        GridChange::Blocked(vec![Cell::new(160, 1)]),
+        GridChange::CostChanged((0..300).map(|x| Cell::new(x, 160)).collect(), 200),
+        GridChange::Blocked(vec![Cell::new(7, 300)]),
+    ] {
+        let changes = [changes];
+        let revision = problem.revise(&changes).unwrap();
+        let report = dstar.replan(&revision, &mut Context::seeded(0)).unwrap();
+        let expected = oracle(&problem);
+        assert_eq!(proven(&problem, &report), expected, "{changes:?}");
+        for planner in &mut planners {
+            let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+            assert_eq!(proven(&problem, &report), expected, "{}", planner.name());
+        }
+    }
+}

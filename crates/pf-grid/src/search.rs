@@ -1,0 +1,298 @@
+//! The best-first search that Dijkstra, A* and their kin share.
+
+use crate::{
+    Buckets, Cell, Grid, GridProblem, Layout, Moves, Weights, Word,
+    canonical::{Successors, successors},
+};
+use pf_core::Context;
+
+/// What a search knows of a cell. Twelve bytes for [`u64`] instead of sixteen: on large maps
+/// memory traffic is what a search waits for.
+#[derive(Clone, Copy, Debug, Default)]
+#[repr(C, packed(4))]
+struct Record<W> {
+    /// Least weight found from the start.
+    g: W,
+    /// The search this belongs to; others are as good as never written.
+    generation: u16,
+    /// The set of directions in which the cell was reached at weight `g`.
+    arrivals: u8,
+    /// Expanded at weight `g`.
+    closed: bool,
+}
+
+/// How a search ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End<W> {
+    /// At the goal, reached at this weight, the least there is.
+    Goal(W),
+    /// Everything within reach was expanded; no goal among it.
+    Exhausted,
+    /// The budget ran out.
+    Cut,
+    /// What is left lies beyond [`Word::LIMIT`]: ask in a wider word.
+    TooFar,
+}
+
+/// Best-first search on a grid: exact for every move rule, with and without terrain.
+///
+/// Memory is kept between calls and cleared by generations: after the first call on a grid a
+/// search allocates nothing, and touches only the cells it reaches. On grids without terrain only
+/// canonical successors are generated.
+///
+/// A cell may be expanded more than once, as the open list orders buckets and not keys; the search
+/// goes on until no bucket is left that could hold a better path to the goal.
+#[derive(Clone, Debug, Default)]
+pub struct Search<W: Copy> {
+    records: Vec<Record<W>>,
+    generation: u16,
+    open: Buckets<W>,
+    layout: Option<Layout>,
+}
+
+impl<W: Word> Search<W> {
+    /// Searches from `start` to `goal`, or everywhere if there is none, in the order of weight
+    /// plus `heuristic`. The heuristic takes ids and must be consistent.
+    pub fn run(
+        &mut self,
+        problem: &GridProblem,
+        start: Cell,
+        goal: Option<Cell>,
+        heuristic: impl Fn(u32) -> W,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
+        let grid = problem.grid();
+        let weights = Weights::of(grid);
+        let moves = problem.moves();
+        self.begin(grid.layout());
+        if !grid.is_free(start) {
+            return End::Exhausted;
+        }
+        let layout = grid.layout();
+        let start = layout.id(start);
+        let first = heuristic(start);
+        // One step changes the key by its weight and the heuristic by no more than that.
+        let reach = weights.reach();
+
+        self.open.reset(first, reach, weights.shift::<W>());
+        self.records[start as usize] = Record {
+            g: W::default(),
+            generation: self.generation,
+            arrivals: 0,
+            closed: false,
+        };
+        self.open.push(first, start, W::default());
+        let goal = goal.map_or(u32::MAX, |cell| layout.id(cell));
+        if weights.is_uniform() {
+            let pruned = Pruned {
+                grid,
+                moves,
+                successors: successors(moves),
+            };
+            self.search(layout, goal, heuristic, &pruned, cx)
+        } else {
+            let weighed = Weighed {
+                grid,
+                moves,
+                weights,
+            };
+            self.search(layout, goal, heuristic, &weighed, cx)
+        }
+    }
+
+    fn begin(&mut self, layout: &Layout) {
+        if self.layout != Some(*layout) {
+            self.layout = Some(*layout);
+            self.records.clear();
+            self.records.resize(layout.len(), Record::default());
+            self.generation = 0;
+        }
+        if self.generation == u16::MAX {
+            self.records.fill(Record::default());
+            self.generation = 0;
+        }
+        self.generation += 1;
+    }
+
+    fn search<S: Steps<W>>(
+        &mut self,
+        layout: &Layout,
+        goal: u32,
+        heuristic: impl Fn(u32) -> W,
+        steps: &S,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
+        let offsets = layout.offsets();
+        let generation = self.generation;
+        // No path as heavy as this is of interest, first for exactness, then for being no better.
+        let mut bound = W::LIMIT;
+        let mut beyond = false;
+        while let Some((id, g)) = self.open.pop(bound) {
+            let record = &mut self.records[id as usize];
+            if record.closed || { record.g } != g {
+                continue;
+            }
+            if !cx.proceed() {
+                return End::Cut;
+            }
+            record.closed = true;
+            let arrivals = record.arrivals;
+            cx.expanded(|| layout.cell(id));
+            if id == goal {
+                bound = g;
+                continue;
+            }
+            let mut onward = steps.onward(id, arrivals);
+            while onward != 0 {
+                let k = onward.trailing_zeros();
+                onward &= onward - 1;
+                let next = id.wrapping_add_signed(offsets[k as usize]);
+                let next_g = g + steps.weight(id, next, k);
+                let record = &mut self.records[next as usize];
+                let arrival = 1 << k;
+                let known = record.g;
+                if record.generation == generation && next_g >= known {
+                    if next_g > known || record.arrivals & arrival != 0 || !S::CANONICAL {
+                        continue;
+                    }
+                    // As good as the best, from elsewhere: other successors may be due.
+                    record.arrivals |= arrival;
+                    if !record.closed {
+                        continue;
+                    }
+                    record.closed = false;
+                } else {
+                    *record = Record {
+                        g: next_g,
+                        generation,
+                        arrivals: arrival,
+                        closed: false,
+                    };
+                }
+                let key = next_g + heuristic(next);
+                if key < bound {
+                    self.open.push(key, next, next_g);
+                } else {
+                    beyond = true;
+                }
+            }
+        }
+        if bound < W::LIMIT {
+            End::Goal(bound)
+        } else if beyond {
+            End::TooFar
+        } else {
+            End::Exhausted
+        }
+    }
+
+    /// The weight at which the last search reached a cell: the least one if the cell was expanded.
+    #[must_use]
+    pub fn weight(&self, id: u32) -> Option<W> {
+        let record = self.records.get(id as usize)?;
+        (record.generation == self.generation).then_some(record.g)
+    }
+
+    /// The path on which the last search reached `to`, the start first; empty if it did not. Of
+    /// equally good ways back the first in the order of [`DIRECTIONS`](crate::DIRECTIONS) is taken.
+    #[must_use]
+    pub fn path(&self, to: Cell) -> Vec<Cell> {
+        let Some((layout, weight)) = self.layout.and_then(|layout| {
+            let weight = self.weight(layout.id(to))?;
+            Some((layout, weight))
+        }) else {
+            return Vec::new();
+        };
+        let offsets = layout.offsets();
+        // Every step weighs at least as much as a straight one.
+        let mut path = Vec::with_capacity(weight.over(W::STRAIGHT) + 1);
+        let mut id = layout.id(to);
+        loop {
+            path.push(layout.cell(id));
+            let arrivals = self.records[id as usize].arrivals;
+            if arrivals == 0 {
+                path.reverse();
+                return path;
+            }
+            let k = arrivals.trailing_zeros() as usize;
+            id = id.wrapping_add_signed(-offsets[k]);
+        }
+    }
+
+    /// Of the cells the last search reached, the one nearest `to` in a straight line; ties go to
+    /// the upper, then the left one.
+    #[must_use]
+    pub fn nearest(&self, to: Cell) -> Option<Cell> {
+        let layout = self.layout?;
+        let square = |a: u32, b: u32| u64::from(a.abs_diff(b)).pow(2);
+        layout
+            .cells()
+            .filter(|&cell| self.weight(layout.id(cell)).is_some())
+            .min_by_key(|cell| square(cell.x, to.x) + square(cell.y, to.y))
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.records.capacity() * size_of::<Record<W>>() + self.open.bytes()
+    }
+}
+
+/// Where the search goes on from a cell, and at what weight.
+trait Steps<W> {
+    /// Whether the successors depend on the arrivals.
+    const CANONICAL: bool;
+    fn onward(&self, id: u32, arrivals: u8) -> u8;
+    fn weight(&self, from: u32, to: u32, k: u32) -> W;
+}
+
+/// On a grid without terrain: canonical successors, two weights.
+struct Pruned<'g> {
+    grid: &'g Grid,
+    moves: Moves,
+    successors: &'static Successors,
+}
+
+impl<W: Word> Steps<W> for Pruned<'_> {
+    const CANONICAL: bool = true;
+
+    #[inline]
+    fn onward(&self, id: u32, mut arrivals: u8) -> u8 {
+        let around = self.grid.around_id(id);
+        if arrivals == 0 {
+            return self.moves.legal(around);
+        }
+        let mut onward = 0;
+        while arrivals != 0 {
+            onward |= self.successors[arrivals.trailing_zeros() as usize][usize::from(around)];
+            arrivals &= arrivals - 1;
+        }
+        onward
+    }
+
+    #[inline]
+    fn weight(&self, _: u32, _: u32, k: u32) -> W {
+        if k < 4 { W::STRAIGHT } else { W::DIAGONAL }
+    }
+}
+
+/// On a grid with terrain: all legal moves, each at the sum of the two cells' costs.
+struct Weighed<'g> {
+    grid: &'g Grid,
+    moves: Moves,
+    weights: Weights,
+}
+
+impl<W: Word> Steps<W> for Weighed<'_> {
+    const CANONICAL: bool = false;
+
+    #[inline]
+    fn onward(&self, id: u32, _: u8) -> u8 {
+        self.moves.legal(self.grid.around_id(id))
+    }
+
+    #[inline]
+    fn weight(&self, from: u32, to: u32, k: u32) -> W {
+        self.weights.step(self.grid, from, to, k)
+    }
+}

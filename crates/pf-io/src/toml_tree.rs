@@ -1,0 +1,228 @@
+//! TOML values that know their place, and errors that name it.
+
+use crate::{
+    FileError, Place,
+    error::quoted,
+    source::{Source, place_of},
+};
+use pf_grid::Cell;
+use std::ops::Range;
+use toml::{
+    Spanned,
+    de::{DeTable, DeValue},
+};
+
+/// A file and its text.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct File<'a> {
+    pub(crate) source: Source<'a>,
+    pub(crate) text: &'a str,
+}
+
+/// A table whose keys are known.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Table<'a> {
+    file: File<'a>,
+    span: (usize, usize),
+    entries: &'a DeTable<'a>,
+}
+
+/// A value and its place.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Value<'a> {
+    file: File<'a>,
+    span: (usize, usize),
+    content: &'a DeValue<'a>,
+}
+
+impl<'a> File<'a> {
+    pub(crate) fn parse(&self) -> Result<Spanned<DeTable<'a>>, FileError> {
+        DeTable::parse(self.text).map_err(|error| {
+            let place = error
+                .span()
+                .map_or(Place::Whole, |span| self.place(span.start));
+            let message = error.message().lines().next().unwrap_or("");
+            let found = format!("broken TOML ({message})");
+            self.source.error(place, found, "a scenario file")
+        })
+    }
+
+    fn place(&self, offset: usize) -> Place {
+        place_of(self.text, offset)
+    }
+}
+
+impl<'a> Table<'a> {
+    pub(crate) fn root(file: File<'a>, root: &'a Spanned<DeTable<'a>>) -> Self {
+        Self {
+            file,
+            span: (0, 0),
+            entries: root.get_ref(),
+        }
+    }
+
+    /// Refuses every key that is not among `keys`.
+    pub(crate) fn with_keys(self, keys: &[&str]) -> Result<Self, FileError> {
+        // Tables are sorted by key: the first unknown one by place is the one to name.
+        let unknown = self
+            .entries
+            .keys()
+            .filter(|key| !keys.contains(&key.get_ref().as_ref()));
+        let Some(key) = unknown.min_by_key(|key| key.span().start) else {
+            return Ok(self);
+        };
+        let near = keys
+            .iter()
+            .map(|known| (strsim::damerau_levenshtein(known, key.get_ref()), *known))
+            .min()
+            .filter(|(distance, _)| *distance <= 2);
+        let expected = match near {
+            Some((_, known)) => format!("\"{known}\""),
+            None => format!("one of {}", keys.join(", ")),
+        };
+        let place = self.file.place(key.span().start);
+        let found = format!("the key {}", quoted(key.get_ref()));
+        Err(self.file.source.error(place, found, expected))
+    }
+
+    pub(crate) fn get(&self, key: &str) -> Option<Value<'a>> {
+        let value = self.entries.get(key)?;
+        Some(Value::new(self.file, value))
+    }
+
+    pub(crate) fn needed(&self, key: &str, expected: &str) -> Result<Value<'a>, FileError> {
+        let missing = || self.error(format!("no \"{key}\""), format!("\"{key}\": {expected}"));
+        self.get(key).ok_or_else(missing)
+    }
+
+    /// A string, if the key is there.
+    pub(crate) fn string(&self, key: &str) -> Result<Option<&'a str>, FileError> {
+        self.get(key).map(|value| value.string()).transpose()
+    }
+
+    /// Tables under a key: one, several or none.
+    pub(crate) fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, FileError> {
+        match self.get(key) {
+            None => Ok(Vec::new()),
+            Some(value) if value.content.is_table() => Ok(vec![value.table()?]),
+            Some(value) => value.array("tables")?.map(|value| value.table()).collect(),
+        }
+    }
+
+    /// An error about the table as a whole.
+    pub(crate) fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> FileError {
+        let place = self.file.place(self.span.0);
+        self.file.source.error(place, found, expected)
+    }
+}
+
+impl<'a> Value<'a> {
+    fn new(file: File<'a>, value: &'a Spanned<DeValue<'a>>) -> Self {
+        let Range { start, end } = value.span();
+        Self {
+            file,
+            span: (start, end),
+            content: value.get_ref(),
+        }
+    }
+
+    /// An error about this value, quoting it.
+    pub(crate) fn error(&self, expected: impl Into<String>) -> FileError {
+        let text = self.file.text.get(self.span.0..self.span.1).unwrap_or("");
+        let found = quoted(text);
+        self.file
+            .source
+            .error(self.file.place(self.span.0), found, expected)
+    }
+
+    pub(crate) fn string(&self) -> Result<&'a str, FileError> {
+        self.content.as_str().ok_or_else(|| self.error("a string"))
+    }
+
+    fn table(&self) -> Result<Table<'a>, FileError> {
+        let entries = self
+            .content
+            .as_table()
+            .ok_or_else(|| self.error("a table"))?;
+        Ok(Table {
+            file: self.file,
+            span: self.span,
+            entries,
+        })
+    }
+
+    fn array(&self, of: &str) -> Result<impl Iterator<Item = Value<'a>> + use<'a>, FileError> {
+        let expected = || self.error(format!("an array of {of}"));
+        let array = self.content.as_array().ok_or_else(expected)?;
+        let file = self.file;
+        Ok(array.iter().map(move |value| Value::new(file, value)))
+    }
+
+    /// A number from 0, whole or not.
+    pub(crate) fn amount(&self, what: &str) -> Result<f64, FileError> {
+        let number = match self.content {
+            DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix())
+                .ok()
+                .and_then(|n| u32::try_from(n).ok())
+                .map(f64::from),
+            DeValue::Float(n) => n.as_str().parse().ok(),
+            _ => None,
+        };
+        number
+            .filter(|n: &f64| n.is_finite() && *n >= 0.0)
+            .ok_or_else(|| self.error(format!("{what}: a number from 0")))
+    }
+
+    /// A whole number from 0.
+    pub(crate) fn count(&self, what: &str) -> Result<u32, FileError> {
+        let number = match self.content {
+            DeValue::Integer(n) => u32::from_str_radix(n.as_str(), n.radix()).ok(),
+            _ => None,
+        };
+        number.ok_or_else(|| self.error(format!("{what}: a whole number from 0")))
+    }
+
+    /// A cell `[x, y]` of a map of this size.
+    pub(crate) fn cell(&self, size: (u32, u32)) -> Result<Cell, FileError> {
+        let (corner, _) = self.rectangle(size)?;
+        match self.content.as_array() {
+            Some(numbers) if numbers.len() == 2 => Ok(corner),
+            _ => Err(self.error("a cell [x, y]")),
+        }
+    }
+
+    /// Cells: an array of `[x, y]` and of rectangles `[x, y, width, height]`.
+    pub(crate) fn cells(&self, size: (u32, u32)) -> Result<Vec<Cell>, FileError> {
+        let mut cells = Vec::new();
+        for value in self.array("cells [x, y] or [x, y, width, height]")? {
+            let (Cell { x, y }, (width, height)) = value.rectangle(size)?;
+            let rows = y..y + height;
+            cells.extend(rows.flat_map(|y| (x..x + width).map(move |x| Cell { x, y })));
+        }
+        Ok(cells)
+    }
+
+    /// A cell or a rectangle that lies in a map of this size.
+    fn rectangle(&self, size: (u32, u32)) -> Result<(Cell, (u32, u32)), FileError> {
+        let what = "a cell [x, y] or a rectangle [x, y, width, height]";
+        let numbers: Vec<u32> = match self.content {
+            DeValue::Array(array) if matches!(array.len(), 2 | 4) => self
+                .array("numbers")?
+                .map(|value| value.count("a coordinate"))
+                .collect::<Result<_, _>>()?,
+            _ => return Err(self.error(what)),
+        };
+        let (cell, extent) = match numbers[..] {
+            [x, y] => (Cell { x, y }, (1, 1)),
+            [x, y, width, height] => (Cell { x, y }, (width, height)),
+            _ => return Err(self.error(what)),
+        };
+        let inside = |from: u32, length: u32, size: u32| {
+            length > 0 && u64::from(from) + u64::from(length) <= u64::from(size)
+        };
+        if inside(cell.x, extent.0, size.0) && inside(cell.y, extent.1, size.1) {
+            return Ok((cell, extent));
+        }
+        Err(self.error(format!("cells inside the map of {} x {}", size.0, size.1)))
+    }
+}
