@@ -33,6 +33,8 @@ pub(crate) struct Args {
     out: PathBuf,
 }
 
+const REPETITIONS: usize = 3;
+
 /// A map that the program carries, and a question worth asking on it.
 struct Show {
     name: &'static str,
@@ -84,9 +86,14 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
         Failure::Internal(format!("{} cannot be made: {error}", args.out.display()))
     })?;
     let mut table = Table::new();
-    table
-        .load_style(presets::UTF8_FULL_CONDENSED)
-        .set_header(["map", "planner", "found", "length", "% over", "time"]);
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header([
+        "map",
+        "planner",
+        "found",
+        "length",
+        "% over shortest",
+        "time",
+    ]);
     for column in table.column_iter_mut().skip(3) {
         column.set_cell_alignment(CellAlignment::Right);
     }
@@ -119,7 +126,8 @@ impl Show {
         Ok(Question::of(self.name, scene))
     }
 
-    /// Plans and draws; the clock runs without the listener that a picture needs.
+    /// Plans and draws. The time told is the best of a few, without the listener that a picture
+    /// needs: the first call on a map also asks the system for memory.
     fn plan(
         &self,
         entry: &dyn AnyEntry,
@@ -134,7 +142,13 @@ impl Show {
             budget: Budget::unlimited().cancel(cancel),
             recorder,
         };
-        let answer = runner.plan(&question.scene, order(None))?;
+        let mut answer = runner.plan(&question.scene, order(None))?;
+        for _ in 1..REPETITIONS {
+            let again = runner.plan(&question.scene, order(None))?;
+            if again.stats.elapsed < answer.stats.elapsed {
+                answer = again;
+            }
+        }
         let mut recorder = Recorder::default();
         let told = Told {
             entry,

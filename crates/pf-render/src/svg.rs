@@ -259,7 +259,7 @@ fn legend(out: &mut String, picture: &Picture, page: &Page, top: f64) -> f64 {
     let right = page.width - MARGIN - bar.max(70.0);
     let (mut x, mut y) = (MARGIN, top);
     for (key, words) in &picture.legend {
-        let width = 28.0 + text_width(words, FONT) + 16.0;
+        let width = 28.0 + text_width(words, FONT);
         if x > MARGIN && x + width > right {
             x = MARGIN;
             y += LINE_HEIGHT;
@@ -272,7 +272,7 @@ fn legend(out: &mut String, picture: &Picture, page: &Page, top: f64) -> f64 {
             y + 12.0,
             escaped(words)
         );
-        x += width;
+        x += width + 14.0;
     }
     y + LINE_HEIGHT + 8.0
 }
