@@ -29,11 +29,19 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
     };
     let (mut passed, mut failed) = (0, 0);
     for planner in pf_planners::grid_planners() {
-        if args.planner.as_ref().is_some_and(|name| name != planner.key()) {
+        if args
+            .planner
+            .as_ref()
+            .is_some_and(|name| name != planner.key())
+        {
             continue;
         }
         planner.make(&[])?;
-        let make = || planner.make(&[]).expect("it was made with its defaults just now");
+        let make = || {
+            planner
+                .make(&[])
+                .expect("it was made with its defaults just now")
+        };
         for verdict in examine_replanner(&Grids, &options, &make) {
             println!("{:<14} {verdict}", planner.key());
             if verdict.passed() {

@@ -32,7 +32,11 @@ pub(crate) fn page() -> Result<String> {
          | --- | --- | --- |\n",
     );
     for law in pf_conformance::laws() {
-        writeln!(page, "| **{}** | {} | {} |", law.name, law.binds.whom, law.text)?;
+        writeln!(
+            page,
+            "| **{}** | {} | {} |",
+            law.name, law.binds.whom, law.text
+        )?;
     }
     Ok(page)
 }
