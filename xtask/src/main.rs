@@ -1,1 +1,8 @@
-fn main() {}
+//! The workspace's own commands.
+
+mod office;
+
+fn main() -> anyhow::Result<()> {
+    office::write("maps/grids".as_ref())?;
+    Ok(())
+}
