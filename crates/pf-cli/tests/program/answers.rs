@@ -21,7 +21,9 @@ const PARTED: &str = "
 fn json_has_the_documented_keys() {
     let folder = map("... .#. ...");
     let file = folder.name("m.map");
-    let args = ["plan", &file, "--from", "0,0", "--to", "2,2", "--seed", "7", "--json"];
+    let args = [
+        "plan", &file, "--from", "0,0", "--to", "2,2", "--seed", "7", "--json",
+    ];
     let run = pf(&args).ends(0);
     let [object] = &run.json()[..] else {
         panic!("one line: {}", run.out)
@@ -46,8 +48,24 @@ fn json_has_the_documented_keys() {
 #[test]
 fn people_read_the_same() {
     let folder = map(HALL);
-    let run = pf(&["plan", &folder.name("m.map"), "--from", "0,0", "--to", "9,0"]).ends(0);
-    for words in ["optimal", "cost", "length", "clearance", "expanded", "time", "A* on"] {
+    let run = pf(&[
+        "plan",
+        &folder.name("m.map"),
+        "--from",
+        "0,0",
+        "--to",
+        "9,0",
+    ])
+    .ends(0);
+    for words in [
+        "optimal",
+        "cost",
+        "length",
+        "clearance",
+        "expanded",
+        "time",
+        "A* on",
+    ] {
         assert!(run.out.contains(words), "no {words:?} in {}", run.out);
     }
 }
@@ -58,17 +76,38 @@ fn what_has_no_path_ends_with_4_and_says_why() {
     let file = folder.name("m.map");
     for planner in ["dijkstra", "astar", "d-star-lite"] {
         let ask = |to: &str, more: &[&str]| {
-            let args = ["plan", &file, "--from", "0,0", "--to", to, "--planner", planner, "--json"];
+            let args = [
+                "plan",
+                &file,
+                "--from",
+                "0,0",
+                "--to",
+                to,
+                "--planner",
+                planner,
+                "--json",
+            ];
             let run = pf(&[&args, more].concat()).ends(4);
             run.json()[0].clone()
         };
         let parted = ask("6,1", &[]);
-        assert_eq!((&parted["outcome"], &parted["cost"]), (&json!("infeasible"), &json!(null)));
+        assert_eq!(
+            (&parted["outcome"], &parted["cost"]),
+            (&json!("infeasible"), &json!(null))
+        );
         assert_eq!(parted["path"], json!([]));
-        assert!(parted["notes"][0].as_str().unwrap().contains("no way between them"));
+        assert!(
+            parted["notes"][0]
+                .as_str()
+                .unwrap()
+                .contains("no way between them")
+        );
         let blocked = ask("3,1", &[]);
         let why = blocked["notes"][0].as_str().unwrap();
-        assert_eq!(why, "the goal 3,1 is blocked; the nearest cell it fits is 2,1");
+        assert_eq!(
+            why,
+            "the goal 3,1 is blocked; the nearest cell it fits is 2,1"
+        );
         let inflated = ask("4,1", &["--radius", "1"]);
         let why = inflated["notes"][0].as_str().unwrap();
         assert!(why.starts_with("the goal 4,1 has a clearance of 0.5 cells, the robot needs 1"));
@@ -80,7 +119,16 @@ fn nearest_gives_the_way_to_the_nearest_cell() {
     let folder = map(PARTED);
     let file = folder.name("m.map");
     for planner in ["dijkstra", "astar", "d-star-lite"] {
-        let args = ["plan", &file, "--from", "0,1", "--to", "6,1", "--planner", planner];
+        let args = [
+            "plan",
+            &file,
+            "--from",
+            "0,1",
+            "--to",
+            "6,1",
+            "--planner",
+            planner,
+        ];
         let svg = folder.name("near.svg");
         let more = ["--nearest", "--json", "--svg", &svg];
         let object = &pf(&[&args[..], &more[..]].concat()).ends(4).json()[0];
@@ -88,7 +136,11 @@ fn nearest_gives_the_way_to_the_nearest_cell() {
         assert_eq!(object["nearest_path"], json!([[0, 1], [1, 1], [2, 1]]));
         let notes = object["notes"].as_array().unwrap();
         assert!(notes.contains(&json!("nearest: 2,1")), "{notes:?}");
-        assert!(fs::read_to_string(&svg).unwrap().contains("stroke-dasharray"));
+        assert!(
+            fs::read_to_string(&svg)
+                .unwrap()
+                .contains("stroke-dasharray")
+        );
         let text = pf(&[&args[..], &["--nearest"]].concat()).ends(4).out;
         assert!(text.contains("the path to 2,1 takes 2 cells"), "{text}");
     }
@@ -98,10 +150,35 @@ fn nearest_gives_the_way_to_the_nearest_cell() {
 fn a_budget_that_runs_out_ends_with_5() {
     let folder = map(HALL);
     let file = folder.name("m.map");
-    let args = ["plan", &file, "--from", "0,0", "--to", "9,0", "--json", "--iterations", "3"];
+    let args = [
+        "plan",
+        &file,
+        "--from",
+        "0,0",
+        "--to",
+        "9,0",
+        "--json",
+        "--iterations",
+        "3",
+    ];
     let object = &pf(&args).ends(5).json()[0];
-    assert_eq!((&object["outcome"], &object["stop"]), (&json!("unknown"), &json!("iterations")));
-    pf(&["plan", &file, "--from", "0,0", "--to", "9,0", "--time", "1m", "--threads", "2"]).ends(0);
+    assert_eq!(
+        (&object["outcome"], &object["stop"]),
+        (&json!("unknown"), &json!("iterations"))
+    );
+    pf(&[
+        "plan",
+        &file,
+        "--from",
+        "0,0",
+        "--to",
+        "9,0",
+        "--time",
+        "1m",
+        "--threads",
+        "2",
+    ])
+    .ends(0);
 }
 
 #[test]
@@ -110,19 +187,29 @@ fn moves_and_radius_change_the_answer() {
     let file = folder.name("m.map");
     let cost = |more: &[&str]| {
         let args = ["plan", &file, "--from", "0,0", "--to", "9,0", "--json"];
-        pf(&[&args, more].concat()).ends(0).json()[0]["cost"].as_f64().unwrap()
+        pf(&[&args, more].concat()).ends(0).json()[0]["cost"]
+            .as_f64()
+            .unwrap()
     };
     assert!((cost(&["--moves", "orthogonal"]) - 13.0).abs() < 1e-9);
     assert!(cost(&["--moves", "always"]) < cost(&["--moves", "no-corner-cutting"]));
-    let args = ["plan", &file, "--from", "0,0", "--to", "9,0", "--radius", "2"];
+    let args = [
+        "plan", &file, "--from", "0,0", "--to", "9,0", "--radius", "2",
+    ];
     pf(&args).ends(4);
 }
 
 #[test]
 fn pictures_are_drawn() {
     let folder = map(HALL);
-    let (file, svg, png) = (folder.name("m.map"), folder.name("o.svg"), folder.name("o.png"));
-    let args = ["plan", &file, "--from", "0,2", "--to", "9,2", "--radius", "0.5"];
+    let (file, svg, png) = (
+        folder.name("m.map"),
+        folder.name("o.svg"),
+        folder.name("o.png"),
+    );
+    let args = [
+        "plan", &file, "--from", "0,2", "--to", "9,2", "--radius", "0.5",
+    ];
     let more = ["--svg", &svg, "--png", &png, "--show-expanded"];
     pf(&[&args[..], &more[..]].concat()).ends(0);
     let text = fs::read_to_string(&svg).unwrap();
@@ -133,7 +220,13 @@ fn pictures_are_drawn() {
 #[test]
 fn the_45_published_cases_come_out_as_published() {
     for planner in ["dijkstra", "astar", "d-star-lite"] {
-        let args = ["plan", "maps/scenarios/redlarski.toml", "--planner", planner, "--json"];
+        let args = [
+            "plan",
+            "maps/scenarios/redlarski.toml",
+            "--planner",
+            planner,
+            "--json",
+        ];
         let objects = pf(&args).ends(0).json();
         assert_eq!(objects.len(), 45);
         for object in objects {
@@ -159,7 +252,10 @@ fn a_length_that_the_file_states_wrongly_ends_with_6() {
 #[test]
 fn planners_are_listed() {
     let objects = pf(&["planners", "--json"]).ends(0).json();
-    let names: Vec<_> = objects.iter().map(|o| o["name"].as_str().unwrap()).collect();
+    let names: Vec<_> = objects
+        .iter()
+        .map(|o| o["name"].as_str().unwrap())
+        .collect();
     assert!(names.starts_with(&["dijkstra", "astar", "d-star-lite"]));
     for object in &objects {
         assert_eq!(object["problem"], "grid");

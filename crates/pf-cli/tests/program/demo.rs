@@ -7,7 +7,9 @@ fn it_compares_all_planners_and_draws() {
     let folder = Folder::with(&[]);
     let out = folder.name("pictures");
     let run = pf(&["demo", "--out", &out]).ends(0);
-    for words in ["Dijkstra", "A*", "D* Lite", "found", "length", "% over", "time", &out] {
+    for words in [
+        "Dijkstra", "A*", "D* Lite", "found", "length", "% over", "time", &out,
+    ] {
         assert!(run.out.contains(words), "no {words:?} in {}", run.out);
     }
     let files = std::fs::read_dir(&out).unwrap();

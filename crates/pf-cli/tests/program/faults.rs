@@ -27,7 +27,9 @@ fn usage_errors_end_with_2_and_say_what_would_be_right() {
     with(&["--case", "a"]).says(&["not a scenario"]);
     with(&["--scen", &file]).says(&["--scen", "cannot be used with"]);
     plan(&["--limit", "3"]).says(&["--scen"]);
-    pf(&["replan", &file]).ends(2).says(&["no scenario", "pf plan"]);
+    pf(&["replan", &file])
+        .ends(2)
+        .says(&["no scenario", "pf plan"]);
     pf(&["fly"]).ends(2).says(&["fly"]);
 }
 
@@ -37,7 +39,9 @@ fn cases_are_chosen_by_name() {
     let one = ["plan", file, "--case", "maze-20 table 1", "--json"];
     assert_eq!(pf(&one).ends(0).json().len(), 1);
     let wrong = ["plan", file, "--case", "maze-20"];
-    pf(&wrong).ends(2).says(&["no case `maze-20`", "maze-20 table 1"]);
+    pf(&wrong)
+        .ends(2)
+        .says(&["no case `maze-20`", "maze-20 table 1"]);
     let folder = Folder::with(&[]);
     let svg = folder.name("a.svg");
     pf(&["plan", file, "--svg", &svg]).ends(2).says(&["--case"]);
@@ -48,7 +52,9 @@ fn cases_are_chosen_by_name() {
 fn a_missing_file_is_named() {
     let args = ["plan", "no/such.map", "--from", "0,0", "--to", "1,1"];
     pf(&args).ends(3).says(&["no/such.map", "No such file"]);
-    pf(&["replan", "no/such.toml"]).ends(3).says(&["no/such.toml"]);
+    pf(&["replan", "no/such.toml"])
+        .ends(3)
+        .says(&["no/such.toml"]);
 }
 
 #[test]

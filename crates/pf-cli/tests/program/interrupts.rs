@@ -16,7 +16,15 @@ fn ctrl_c_reports_what_there_is_and_ends_with_130() {
     rows.push_str(&"0\tm.map\t300\t300\t0\t0\t299\t299\t422.84992\n".repeat(100_000));
     let folder = Folder::with(&[("m.map", &movingai(&drawing)), ("m.scen", rows.as_bytes())]);
     let (map, rows) = (folder.name("m.map"), folder.name("m.scen"));
-    let args = ["plan", &map, "--scen", &rows, "--planner", "dijkstra", "--json"];
+    let args = [
+        "plan",
+        &map,
+        "--scen",
+        &rows,
+        "--planner",
+        "dijkstra",
+        "--json",
+    ];
     let mut child = command(&args)
         .stdout(Stdio::piped())
         .stderr(Stdio::piped())
@@ -26,7 +34,9 @@ fn ctrl_c_reports_what_there_is_and_ends_with_130() {
     let mut line = String::new();
     err.read_line(&mut line).unwrap();
     assert!(line.contains("the file says 7"), "{line}");
-    let kill = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
+    let kill = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
     assert!(kill.unwrap().success());
     err.read_to_string(&mut line).unwrap();
     let run = Run::from(child.wait_with_output().unwrap()).ends(130);

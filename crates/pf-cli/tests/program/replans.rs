@@ -56,12 +56,27 @@ fn one_object_per_event() {
         for key in ["latency_us", "upkeep_us", "at", "seed"] {
             assert!(object[key].is_number(), "{key}");
         }
-        for key in ["stop", "cost", "length", "path", "clearance", "notes", "stats", "change"] {
+        for key in [
+            "stop",
+            "cost",
+            "length",
+            "path",
+            "clearance",
+            "notes",
+            "stats",
+            "change",
+        ] {
             assert!(object.get(key).is_some(), "{key}");
         }
     }
-    let outcomes: Vec<_> = objects.iter().map(|o| o["outcome"].as_str().unwrap()).collect();
-    assert_eq!(outcomes, ["optimal", "optimal", "optimal", "infeasible", "optimal"]);
+    let outcomes: Vec<_> = objects
+        .iter()
+        .map(|o| o["outcome"].as_str().unwrap())
+        .collect();
+    assert_eq!(
+        outcomes,
+        ["optimal", "optimal", "optimal", "infeasible", "optimal"]
+    );
     assert_eq!(objects[1]["change"], "upper door: 2 cells blocked");
 }
 
@@ -70,10 +85,17 @@ fn a_replanner_answers_as_one_that_starts_over() {
     for more in [&[][..], &["--radius", "0.6"], &["--moves", "orthogonal"]] {
         let folder = scenario();
         let cost = |objects: Vec<Value>| -> Vec<_> {
-            objects.iter().map(|o| (o["outcome"].clone(), o["cost"].clone())).collect()
+            objects
+                .iter()
+                .map(|o| (o["outcome"].clone(), o["cost"].clone()))
+                .collect()
         };
         let expected = cost(replan(&folder, "astar", more));
-        assert_eq!(cost(replan(&folder, "d-star-lite", more)), expected, "{more:?}");
+        assert_eq!(
+            cost(replan(&folder, "d-star-lite", more)),
+            expected,
+            "{more:?}"
+        );
     }
 }
 
@@ -102,8 +124,15 @@ fn the_last_event_decides_how_it_ends() {
     let toml = b"map = 'm.map'\nstart = [0, 0]\ngoal = [2, 0]\n\
         [[event]]\nat = 1\nblocked = [[1, 0]]\n";
     let folder = Folder::with(&[("m.map", &movingai("...")), ("s.toml", toml)]);
-    let objects = pf(&["replan", &folder.name("s.toml"), "--json"]).ends(4).json();
-    assert_eq!(objects[1]["notes"].as_array().unwrap().last().unwrap(), &json!("obstacles part start and goal: no way between them under the moves no-corner-cutting"));
+    let objects = pf(&["replan", &folder.name("s.toml"), "--json"])
+        .ends(4)
+        .json();
+    assert_eq!(
+        objects[1]["notes"].as_array().unwrap().last().unwrap(),
+        &json!(
+            "obstacles part start and goal: no way between them under the moves no-corner-cutting"
+        )
+    );
 }
 
 #[test]

@@ -21,7 +21,7 @@ fn check(rows: &[&str], more: &[&str], code: i32, expected: [u64; 3]) -> crate::
     let run = pf(&[&args, more].concat()).ends(code);
     let objects = run.json();
     assert_eq!(objects.len(), 1);
-    let counts = ["rows", "mismatches", "unsolved"].map(|key| objects[0][key].as_u64().unwrap());
+    let counts = ["rows", "mismatches", "unsolved"].map(|key| objects[0][key].as_u64().expect(key));
     assert_eq!(counts, expected, "{}", run.err);
     assert!(objects[0]["total_us"].is_number() && objects[0]["median_us"].is_number());
     run
@@ -37,7 +37,12 @@ fn rows_are_compared_with_the_stated_optima() {
     check(&[RIGHT, DIAGONAL], &[], 0, [2, 0, 0]);
     check(&[RIGHT, WRONG, DIAGONAL], &["--limit", "1"], 0, [1, 0, 0]);
     let run = check(&[RIGHT, WRONG, BLOCKED], &[], 6, [3, 1, 1]);
-    assert!(run.err.contains("m.scen:3: 0,0 to 0,2: found 2, the file says 2.41421"), "{}", run.err);
+    assert!(
+        run.err
+            .contains("m.scen:3: 0,0 to 0,2: found 2, the file says 2.41421"),
+        "{}",
+        run.err
+    );
     check(&[RIGHT, BLOCKED], &[], 4, [2, 0, 1]);
     check(&[DIAGONAL], &["--iterations", "1"], 5, [1, 0, 1]);
     check(&[], &[], 0, [0, 0, 0]);
@@ -48,7 +53,9 @@ fn rows_about_another_map_are_bad_input() {
     let rows = scen(&["0 m.map 5 3 0 0 3 0 3"]);
     let folder = Folder::with(&[("m.map", &movingai(DRAWING)), ("m.scen", &rows)]);
     let (map, rows) = (folder.name("m.map"), folder.name("m.scen"));
-    pf(&["plan", &map, "--scen", &rows]).ends(3).says(&["m.scen:2", "5", "4 x 3"]);
+    pf(&["plan", &map, "--scen", &rows])
+        .ends(3)
+        .says(&["m.scen:2", "5", "4 x 3"]);
 }
 
 /// A sample of the benchmark; the whole takes minutes. Reads `../shared`.
