@@ -149,6 +149,10 @@ fn optima_are_compared_at_the_precision_of_their_file() {
     assert!(agrees(1, 6.0 + 2f64.sqrt()) && !agrees(1, 7.414_23));
     assert!(agrees(2, 1234.5651) && !agrees(2, 1234.58));
     assert!(agrees(3, 450.300_4) && !agrees(3, 450.31));
+    // %.8f, summed with a root of 2 of eight decimals.
+    let scen = file(&["141.42135600", "7.00000000"]);
+    assert!(scen.agrees(&scen.rows[0], 100.0 * 2f64.sqrt()));
+    assert!(!scen.agrees(&scen.rows[0], 141.421_37) && !scen.agrees(&scen.rows[1], 7.000_001));
     // %.2f: two decimals.
     let scen = file(&["450.32", "73.24", "1000.00"]);
     assert!(scen.agrees(&scen.rows[1], 73.2446) && !scen.agrees(&scen.rows[1], 73.25));
