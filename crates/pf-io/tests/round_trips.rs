@@ -266,6 +266,26 @@ fn pngs_of_every_kind_are_read() {
 }
 
 #[test]
+fn interlaced_pngs_are_read() {
+    // 9 x 6 pixels of one bit, in the seven passes of Adam7.
+    let file = "\
+        89504e470d0a1a0a0000000d49484452000000090000000601000000014ebbb9fe00000022494441\
+        5478da6338c0c0c0a0c07080a1816102c3028602860f0cab18185a19803400588406d0557e51ae00\
+        00000049454e44ae426082";
+    let digits = file
+        .as_bytes()
+        .chunks(2)
+        .map(|pair| str::from_utf8(pair).unwrap());
+    let bytes: Vec<u8> = digits.map(|d| u8::from_str_radix(d, 16).unwrap()).collect();
+    let drawing = "...##..#. .#.#.#.## .##.#...# .####.#.# #...#.#.. ....#####";
+    let expected = Grid::parse(drawing).unwrap();
+    assert_eq!(
+        parse_image("a.png", &bytes).unwrap().to_string(),
+        expected.to_string()
+    );
+}
+
+#[test]
 fn nothing_is_left_half_written() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("a.txt");
