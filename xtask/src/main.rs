@@ -6,7 +6,9 @@ mod bless;
 mod ci;
 mod conformance;
 mod laws;
+mod maps;
 mod new_planner;
+mod office;
 mod planners;
 mod steps;
 mod test;
@@ -44,6 +46,8 @@ enum Verb {
     Bless,
     /// Runs a benchmark suite of pf-bench, optimised: `cargo xtask bench grid --json`
     Bench(bench::Args),
+    /// Draws the maps that are made here: maps/grids/office.yaml and its picture
+    Maps,
     /// Makes a crate for a new planner, with a conformance test that fails until it is written
     NewPlanner(new_planner::Args),
 }
@@ -67,6 +71,7 @@ fn main() -> ExitCode {
         Verb::Tidy => tidy::run(),
         Verb::Bless => bless::run(),
         Verb::Bench(args) => bench::run(&args),
+        Verb::Maps => maps::run(),
         Verb::NewPlanner(args) => new_planner::run(&args),
     };
     match verdict {

@@ -2,6 +2,8 @@
 
 mod best_first;
 mod d_star_lite;
+mod visibility_graph;
 
 pub use best_first::{AStar, AStarParams, Dijkstra, DijkstraParams, SearchParams};
 pub use d_star_lite::{DStarLite, DStarLiteParams};
+pub use visibility_graph::{VisibilityGraph, VisibilityGraphParams};

@@ -1,7 +1,9 @@
 //! How the program ends, and what it says when it ends badly.
 
 use miette::{Diagnostic, GraphicalReportHandler, GraphicalTheme, NamedSource, SourceSpan};
+use pf_core::InvalidProblem;
 use pf_io::{FileError, Place};
+use pf_planners::Refusal;
 use std::{
     fs,
     io::{self, Write},
@@ -117,6 +119,22 @@ impl Failure {
     }
 }
 
+impl From<InvalidProblem> for Failure {
+    /// What the options ask makes no sense: files are checked where they are read.
+    fn from(error: InvalidProblem) -> Self {
+        Self::usage(error.to_string())
+    }
+}
+
+impl From<Refusal> for Failure {
+    fn from(refusal: Refusal) -> Self {
+        match refusal {
+            Refusal::NothingPlanned => Self::Internal(refusal.to_string()),
+            other => Self::usage(other.to_string()),
+        }
+    }
+}
+
 impl From<FileError> for Failure {
     /// Shows the line of a text file in which the error lies.
     fn from(error: FileError) -> Self {
@@ -158,7 +176,9 @@ fn shown(error: &FileError) -> Option<(NamedSource<String>, SourceSpan)> {
         None => (0, content.len()),
         Some(column) => {
             let mut chars = content.char_indices();
-            let from = chars.nth(column as usize - 1).map_or(content.len(), |c| c.0);
+            let from = chars
+                .nth(column as usize - 1)
+                .map_or(content.len(), |c| c.0);
             let word = content[from..].split([' ', '\t', ',', ']']).next()?;
             (from, word.len().max(1))
         }

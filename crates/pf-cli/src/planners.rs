@@ -1,11 +1,14 @@
 //! `pf planners`: what there is.
 
 use crate::failure::{Failure, Status};
-use comfy_table::{ContentArrangement, Table, presets};
+use comfy_table::{Table, presets};
 use pf_core::Claims;
 use pf_planners::{AnyEntry, all};
 use serde::Serialize;
-use std::io::{Write, stdout};
+use std::{
+    fmt::Write as _,
+    io::{Write, stdout},
+};
 
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -46,7 +49,11 @@ impl Described {
             title: entry.name(),
             problem: entry.problem(),
             claims: words(entry.claims()),
-            replans: if entry.replans() { "repairs" } else { "from scratch" },
+            replans: if entry.replans() {
+                "repairs"
+            } else {
+                "from scratch"
+            },
             paper: entry.source(),
             parameters: entry.parameters().iter().map(parameter).collect(),
         }
@@ -70,31 +77,38 @@ pub(crate) fn act(args: &Args) -> Result<Status, Failure> {
     let described = all().map(Described::of);
     if args.json {
         for planner in described {
-            let line = serde_json::to_string(&planner).map_err(|e| Failure::Internal(e.to_string()))?;
+            let line =
+                serde_json::to_string(&planner).map_err(|e| Failure::Internal(e.to_string()))?;
             writeln!(out, "{line}")?;
         }
         return Ok(Status::Done);
     }
     let mut table = Table::new();
-    table
-        .load_preset(presets::UTF8_HORIZONTAL_ONLY)
-        .set_content_arrangement(ContentArrangement::Dynamic)
-        .set_header(["name", "problem", "claims", "after a change", "paper", "parameters (--set)"]);
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header([
+        "name",
+        "problem",
+        "claims",
+        "after a change",
+        "paper",
+    ]);
+    let mut parameters = String::new();
     for planner in described {
-        let parameters: Vec<_> = planner
-            .parameters
-            .iter()
-            .map(|p| format!("{}: {}", p.name, p.about))
-            .collect();
         table.add_row([
             planner.name,
             planner.problem,
             &planner.claims.join(", "),
             planner.replans,
             planner.paper,
-            &parameters.join("\n"),
         ]);
+        for Parameter { name, about } in planner.parameters {
+            let _ = writeln!(parameters, "  {:<12} {name:<10} {about}", planner.name);
+        }
     }
     writeln!(out, "{table}")?;
+    writeln!(
+        out,
+        "Parameters (--set key=value):\n{}",
+        parameters.trim_end()
+    )?;
     Ok(Status::Done)
 }

@@ -4,7 +4,7 @@ use crate::{args::QuestionArgs, failure::Failure};
 use pf_grid::{Cell, Grid, GridChange, GridProblem};
 use pf_io::{Case, Event, Expected, LoadOptions, Scenario, load_grid, read_scenario};
 use pf_planners::Scene;
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
 /// What a planner is asked, and where that comes from.
 pub(crate) struct Question {
@@ -15,17 +15,34 @@ pub(crate) struct Question {
     pub(crate) scene: Scene,
     /// What a shortest path costs, if the file says so of exactly this question.
     pub(crate) expected: Option<Expected>,
+    /// After which of the events, counted from 1; 0 for the first plan.
+    pub(crate) expected_after: usize,
     /// What happens later.
     pub(crate) events: Vec<Event>,
 }
 
+impl Question {
+    /// Just a scene.
+    pub(crate) fn of(file: impl Into<String>, scene: Scene) -> Self {
+        Self {
+            file: file.into(),
+            case: None,
+            scene,
+            expected: None,
+            expected_after: 0,
+            events: Vec::new(),
+        }
+    }
+}
+
 /// A map in any format, or a scenario that names one.
 pub(crate) fn is_scenario(file: &Path) -> bool {
-    file.extension().is_some_and(|e| e.eq_ignore_ascii_case("toml"))
+    file.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("toml"))
 }
 
 /// The map alone, for questions that stand elsewhere.
-pub(crate) fn map(file: &Path, args: &QuestionArgs) -> Result<std::sync::Arc<Grid>, Failure> {
+pub(crate) fn map(file: &Path, args: &QuestionArgs) -> Result<Arc<Grid>, Failure> {
     let options = LoadOptions {
         unknown: args.unknown.unwrap_or_default(),
     };
@@ -42,28 +59,28 @@ pub(crate) fn read(file: &Path, args: &QuestionArgs) -> Result<Vec<Question>, Fa
         return Err(Failure::usage(message));
     }
     let grid = map(file, args)?;
-    let (from, to) = match (args.from, args.to) {
-        (Some(from), Some(to)) => (from, to),
-        (from, _) => {
-            let missing = match (from, args.to) {
-                (None, None) => "--from and --to are",
-                (None, _) => "--from is",
-                _ => "--to is",
-            };
-            let message = format!("where to plan? {missing} missing");
-            let (w, h) = (grid.width(), grid.height());
-            let help = format!("{} has {w} x {h} cells: --from 0,0 --to {},{} asks for a path from the upper left to the lower right", file.display(), w - 1, h - 1);
-            return Err(Failure::usage(message).help(help));
-        }
+    let (Some(from), Some(to)) = (args.from, args.to) else {
+        return Err(missing(file, args, &grid));
     };
-    let scene = scene(GridProblem::new(grid.clone(), inside("--from", from, &grid)?, inside("--to", to, &grid)?)?, 0.0, args)?;
-    Ok(vec![Question {
-        file: file.display().to_string(),
-        case: None,
-        scene,
-        expected: None,
-        events: Vec::new(),
-    }])
+    let (from, to) = (inside("--from", from, &grid)?, inside("--to", to, &grid)?);
+    let scene = scene(&GridProblem::new(grid, from, to)?, 0.0, args)?;
+    Ok(vec![Question::of(file.display().to_string(), scene)])
+}
+
+fn missing(file: &Path, args: &QuestionArgs, grid: &Grid) -> Failure {
+    let missing = match (args.from, args.to) {
+        (None, None) => "--from and --to are",
+        (None, _) => "--from is",
+        _ => "--to is",
+    };
+    let (w, h) = (grid.width(), grid.height());
+    let help = format!(
+        "{} has {w} x {h} cells: --from 0,0 --to {},{} asks for a path from the upper left to the lower right",
+        file.display(),
+        w - 1,
+        h - 1
+    );
+    Failure::usage(format!("where to plan? {missing} missing")).help(help)
 }
 
 /// The cases of a scenario; in time, each begins where the one it follows stood.
@@ -81,6 +98,7 @@ pub(crate) fn cases(
     let several = scenario.cases.len() > 1;
     let ask = |case: &Case| {
         let (mut problem, mut events) = (case.problem.clone(), case.events.clone());
+        let mut expected_after = 0;
         if let (true, Some(before)) = (in_time, case.follows) {
             problem = scenario.cases[before].problem.clone();
             let change = Event {
@@ -89,14 +107,18 @@ pub(crate) fn cases(
                 changes: case.changes.clone(),
             };
             events.insert(0, change);
+            expected_after = 1;
         }
-        let as_stated =
-            args.from.is_none() && args.to.is_none() && args.radius.is_none() && args.moves.is_none();
+        let as_stated = args.from.is_none()
+            && args.to.is_none()
+            && args.radius.is_none()
+            && args.moves.is_none();
         let question = Question {
             file: file.display().to_string(),
             case: several.then(|| case.name.clone()),
-            scene: scene(problem, case.radius, args)?,
+            scene: scene(&problem, case.radius, args)?,
             expected: case.expected.clone().filter(|_| as_stated),
+            expected_after,
             events,
         };
         Ok(question)
@@ -117,7 +139,7 @@ fn chosen<'s>(scenario: &'s Scenario, args: &QuestionArgs) -> Result<Vec<&'s Cas
 }
 
 /// The scene of a problem, with what the options say otherwise.
-fn scene(problem: GridProblem, radius: f64, args: &QuestionArgs) -> Result<Scene, Failure> {
+fn scene(problem: &GridProblem, radius: f64, args: &QuestionArgs) -> Result<Scene, Failure> {
     let grid = problem.shared_grid();
     let from = inside("--from", args.from.unwrap_or(problem.start()), &grid)?;
     let to = inside("--to", args.to.unwrap_or(problem.goal()), &grid)?;

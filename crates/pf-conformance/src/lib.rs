@@ -1,8 +1,22 @@
-//! The laws every planner keeps, as tests for planners of your own.
+#![doc = include_str!("../README.md")]
 
 pub mod grid;
+pub mod rogues;
 
+mod answer;
+mod exam;
+mod law;
+mod run;
+mod stage;
+mod suite;
+mod trial;
+mod verdict;
+
+pub use exam::{examine, examine_replanner};
+pub use law::{Binds, Law, laws};
 pub use pf_core::PlanRng;
+pub use suite::{Case, Options, Plot, Story, Suite, Truth};
+pub use verdict::{Breach, Verdict};
 
 /// The generator for `seed`.
 #[must_use]

@@ -78,7 +78,8 @@ impl Segment {
         let (c, d) = (side(self, other.a), side(self, other.b));
         let (a, b) = (side(other, self.a), side(other, self.b));
         // Both ends on one line say nothing; then the ends' distances decide.
-        let parted = |x: f64, y: f64| (x >= 0.0 && y <= 0.0 || x <= 0.0 && y >= 0.0) && x != y;
+        let parted =
+            |x: f64, y: f64| x.min(y) <= 0.0 && x.max(y) >= 0.0 && x.abs().max(y.abs()) > 0.0;
         parted(c, d) && parted(a, b)
     }
 

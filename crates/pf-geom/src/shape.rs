@@ -1,5 +1,6 @@
 use crate::{Point, Segment, cross, segment::point_to_box};
 use pf_core::InvalidProblem;
+use std::fmt::Display;
 
 /// How far a path may enter an obstacle and still count as touching it, in the world's unit.
 pub const TOUCH: f64 = 1e-9;
@@ -459,7 +460,7 @@ pub(crate) fn check_finite(
 
 pub(crate) fn bad(
     what: impl Into<std::borrow::Cow<'static, str>>,
-    found: impl ToString,
+    found: impl Display,
     expected: &'static str,
 ) -> InvalidProblem {
     InvalidProblem::BadValue {

@@ -337,7 +337,7 @@ pub fn write_ros_yaml(path: &Path, ros: &RosMap) -> Result<(), FileError> {
     };
     write::whole(path, |out| {
         let text = serde_saphyr::to_string(&keys).map_err(io::Error::other)?;
-        out.write_all(text.as_bytes())
+        writeln!(out, "{}", text.trim_end())
     })
 }
 

@@ -36,6 +36,18 @@ impl Turn {
             Self::Right => -1.0,
         }
     }
+
+    /// How far round it is from one unit vector to another, 0 to a whole turn.
+    pub(super) fn angle(self, from: Vector, to: Vector) -> f64 {
+        let angle = self.sign() * cross(from, to).atan2(from.dot(&to));
+        if angle >= 0.0 {
+            angle
+        } else if angle > -SAME_ANGLE {
+            0.0
+        } else {
+            angle + TAU
+        }
+    }
 }
 
 /// The discs of a shape for a robot of `radius`.
@@ -86,18 +98,6 @@ impl Disc {
                 // Opposite the cone both products may be small, too.
                 && normal.dot(&(from + to)) > 0.0
         })
-    }
-
-    /// How far round it is from one normal to another.
-    pub(super) fn angle(&self, from: Vector, to: Vector, turn: Turn) -> f64 {
-        let angle = turn.sign() * cross(from, to).atan2(from.dot(&to));
-        if angle >= 0.0 {
-            angle
-        } else if angle > -SAME_ANGLE {
-            0.0
-        } else {
-            angle + TAU
-        }
     }
 }
 
@@ -264,7 +264,7 @@ fn place((from, to): (f64, f64), normal: Vector) -> Option<f64> {
 fn crossings(disc: &Disc, shape: &Shape, radius: f64, events: &mut Vec<f64>) {
     match shape {
         Shape::Circle(circle) => {
-            circle_crossings(disc, circle.centre(), circle.radius() + radius, events)
+            circle_crossings(disc, circle.centre(), circle.radius() + radius, events);
         }
         Shape::Rectangle(rectangle) => border_crossings(disc, &rectangle.corners(), radius, events),
         Shape::Polygon(polygon) => border_crossings(disc, polygon.corners(), radius, events),

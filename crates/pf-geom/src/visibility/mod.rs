@@ -276,7 +276,7 @@ impl TangentGraph {
         if disc.radius <= 0.0 {
             return Some(0.0);
         }
-        let angle = disc.angle(from, to, turn);
+        let angle = turn.angle(from, to);
         room.lets_pass(from, angle, turn)
             .then_some(angle * disc.radius)
     }
@@ -330,7 +330,7 @@ impl TangentGraph {
             while last != START {
                 let label = self.labels[last as usize];
                 let (disc, turn) = (&self.discs[label.node as usize / 2], turn_of(label.node));
-                let angle = disc.angle(label.arriving, leaving, turn);
+                let angle = turn.angle(label.arriving, leaving);
                 bends.push(Bend::new(disc, label.arriving, angle, turn));
                 leaving = label.leaving;
                 last = label.parent;
