@@ -1,131 +1,221 @@
-//! Probe.
+//! `bench grid`: shortest paths on the maps and queries of the Moving AI benchmark.
+
+use crate::{
+    peers,
+    protocol::{REPETITIONS, Row, Tally, geometric_mean, json, say, timed},
+};
+use anyhow::{Context as _, Result, bail};
 use pf_classic::{AStar, Dijkstra};
 use pf_core::{Context, Planner};
-use pf_grid::{Cell, DIRECTIONS, Grid, GridProblem};
-use std::{hint::black_box, sync::Arc, time::Instant};
+use pf_grid::{GridCost, GridProblem};
+use pf_io::{LoadOptions, Scen, load_grid, read_scen};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Duration,
+};
 
-/// Probe.
-pub fn read(path: &str) -> Arc<Grid> {
-    let text = std::fs::read_to_string(path).unwrap();
-    let rows: Vec<&str> = text.lines().skip(4).map(str::trim_end).collect();
-    Arc::new(
-        Grid::new(rows[0].len() as u32, rows.len() as u32, |c| {
-            u8::from(matches!(
-                rows[c.y as usize].as_bytes()[c.x as usize],
-                b'.' | b'G' | b'S'
-            ))
-        })
-        .unwrap(),
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    /// A folder of .map files, each with its .map.scen beside it
+    #[arg(long, default_value = "../shared/data/movingai")]
+    maps: PathBuf,
+    /// Only maps whose name contains this
+    #[arg(long, default_value = "")]
+    map: String,
+    /// At most this many queries a map, spread evenly over the file
+    #[arg(long, default_value_t = 100)]
+    queries: usize,
+    /// One JSON object a line
+    #[arg(long)]
+    json: bool,
+}
+
+/// Name, and how it answers: the cost of its path and how many cells it expanded.
+type Contender = (&'static str, Box<dyn FnMut(&GridProblem) -> Answer>);
+
+#[derive(Default)]
+struct Answer {
+    cost: Option<GridCost>,
+    expanded: u64,
+    bytes: Option<usize>,
+}
+
+/// Ours first: ratios are to the first.
+fn contenders() -> Vec<Contender> {
+    let (mut astar, mut dijkstra) = (AStar::default(), Dijkstra::default());
+    vec![
+        (
+            "astar",
+            Box::new(move |p| Answer {
+                bytes: Some(astar.bytes()),
+                ..ours(&mut astar, p)
+            }),
+        ),
+        (
+            "dijkstra",
+            Box::new(move |p| Answer {
+                bytes: Some(dijkstra.bytes()),
+                ..ours(&mut dijkstra, p)
+            }),
+        ),
+        (
+            "pathfinding::astar",
+            Box::new(|p| peer(p, peers::pathfinding_astar)),
+        ),
+        (
+            "pathfinding::dijkstra",
+            Box::new(|p| peer(p, peers::pathfinding_dijkstra)),
+        ),
+    ]
+}
+
+fn ours(planner: &mut impl Planner<GridProblem>, problem: &GridProblem) -> Answer {
+    planner.plan(problem, &mut Context::seeded(0)).map_or_else(
+        |_| Answer::default(),
+        |report| Answer {
+            cost: report.outcome.solved().map(|best| best.cost),
+            expanded: report.stats.expanded,
+            bytes: None,
+        },
     )
 }
-/// Probe.
-pub fn scen(path: &str) -> Vec<(Cell, Cell, f64)> {
-    std::fs::read_to_string(path)
-        .unwrap()
-        .lines()
-        .skip(1)
-        .map(|l| {
-            let f: Vec<&str> = l.split_whitespace().collect();
-            let n = |i: usize| f[i].parse::<u32>().unwrap();
-            (
-                Cell::new(n(4), n(5)),
-                Cell::new(n(6), n(7)),
-                f[8].parse().unwrap(),
-            )
-        })
-        .collect()
+
+fn peer(problem: &GridProblem, search: fn(&GridProblem) -> Option<Vec<pf_grid::Cell>>) -> Answer {
+    Answer {
+        cost: peers::cost(problem, search(problem)),
+        ..Answer::default()
+    }
 }
-/// Probe.
-pub fn main() {
-    let dir = std::env::args().nth(1).unwrap();
-    let every: usize = std::env::args().nth(2).map_or(10, |s| s.parse().unwrap());
-    let mut files: Vec<_> = std::fs::read_dir(&dir)
-        .unwrap()
-        .map(|e| e.unwrap().path())
-        .filter(|p| p.extension().is_some_and(|e| e == "map"))
-        .collect();
-    files.sort();
-    let mut product = 0.0;
-    let mut n = 0;
-    for file in files {
-        let name = file.to_str().unwrap();
-        let grid = read(name);
-        let rows = scen(&format!("{name}.scen"));
-        let (mut astar, mut dij) = (AStar::default(), Dijkstra::default());
-        let mut t = [0u128; 3];
-        let mut exp = [0u64; 2];
-        let mut bad = 0;
-        for (s, g, opt) in rows.iter().step_by(every) {
-            let p = GridProblem::new(Arc::clone(&grid), *s, *g).unwrap();
-            let mut best = [u128::MAX; 3];
-            for rep in 0..3 {
-                let b = Instant::now();
-                let r = astar.plan(&p, &mut Context::seeded(0)).unwrap();
-                best[0] = best[0].min(b.elapsed().as_nanos());
-                if rep == 0 {
-                    exp[0] += r.stats.expanded;
-                    let len = r.outcome.solved().map_or(-1.0, |s| s.cost.value());
-                    if (len - opt).abs() > 1e-5 * opt.max(1.0) {
-                        bad += 1;
-                    }
-                }
-                let b = Instant::now();
-                let r = dij.plan(&p, &mut Context::seeded(0)).unwrap();
-                best[1] = best[1].min(b.elapsed().as_nanos());
-                if rep == 0 {
-                    exp[1] += r.stats.expanded;
-                    let len = r.outcome.solved().map_or(-1.0, |s| s.cost.value());
-                    if (len - opt).abs() > 1e-5 * opt.max(1.0) {
-                        bad += 1;
-                    }
-                }
-                if every > 1 && rep < 2 {
-                    let b = Instant::now();
-                    let (w, h) = (grid.width(), grid.height());
-                    let r = pathfinding::prelude::astar(
-                        s,
-                        |c| {
-                            let around = grid.around_id(grid.layout().id(*c));
-                            let legal = p.moves().legal(around);
-                            let c = *c;
-                            (0..8).filter(move |k| legal >> k & 1 == 1).map(move |k| {
-                                (
-                                    Cell::new(
-                                        c.x.wrapping_add_signed(DIRECTIONS[k].0),
-                                        c.y.wrapping_add_signed(DIRECTIONS[k].1),
-                                    ),
-                                    if k < 4 { 33461u32 } else { 47321 },
-                                )
-                            })
-                        },
-                        |c| {
-                            let (dx, dy) = (c.x.abs_diff(g.x), c.y.abs_diff(g.y));
-                            33461 * (dx.max(dy) - dx.min(dy)) + 47321 * dx.min(dy)
-                        },
-                        |c| c == g,
-                    );
-                    best[2] = best[2].min(b.elapsed().as_nanos());
-                    black_box((r, w, h));
-                }
-            }
-            for i in 0..3 {
-                t[i] += best[i];
+
+pub(crate) fn run(args: &Args) -> Result<()> {
+    let maps = maps(&args.maps, &args.map)?;
+    let mut ratios: Vec<Vec<f64>> = vec![];
+    let mut names = vec![];
+    if !args.json {
+        say(format_args!(
+            "{:<26} {:>7}  {:<24} {:>10} {:>10} {:>10} {:>9} {:>7} {:>6} {:>10}",
+            "map",
+            "queries",
+            "planner",
+            "mean us",
+            "median us",
+            "p95 us",
+            "ns/exp",
+            "B/cell",
+            "x",
+            "mismatches"
+        ))?;
+    }
+    let mut mismatches = 0;
+    for map in maps {
+        let rows = bench_map(&map, args.queries)?;
+        let first = rows[0].mean_us;
+        ratios.push(rows.iter().map(|row| row.mean_us / first).collect());
+        names = rows.iter().map(|row| row.planner.clone()).collect();
+        for row in &rows {
+            mismatches += row.mismatches;
+            if args.json {
+                json(row)?;
+            } else {
+                tell(row, row.mean_us / first)?;
             }
         }
-        let q = rows.len().div_ceil(every) as u128;
-        let ratio = t[2] as f64 / t[0] as f64;
-        product += ratio.ln();
-        n += 1;
-        println!(
-            "{:28} {q:5} bad {bad} A* {:7} us {:5.1} ns/exp {:8} exp | Dij {:7} us {:5.1} ns/exp | pathfinding {:7} us  ratio {ratio:.2}",
-            file.file_name().unwrap().to_str().unwrap(),
-            t[0] / q / 1000,
-            t[0] as f64 / exp[0] as f64,
-            exp[0] / q as u64,
-            t[1] / q / 1000,
-            t[1] as f64 / exp[1] as f64,
-            t[2] / q / 1000
-        );
     }
-    println!("geo {:.2}", (product / n as f64).exp());
+    if !args.json {
+        for (k, name) in names.iter().enumerate().skip(1) {
+            let of_maps: Vec<f64> = ratios.iter().map(|ratios| ratios[k]).collect();
+            let least = of_maps.iter().copied().fold(f64::INFINITY, f64::min);
+            say(format_args!(
+                "{name}: {:.2} times astar's time (geometric mean of {} maps; least {least:.2})",
+                geometric_mean(&of_maps),
+                of_maps.len()
+            ))?;
+        }
+    }
+    if mismatches > 0 {
+        bail!("{mismatches} answers do not agree");
+    }
+    Ok(())
+}
+
+fn tell(row: &Row, ratio: f64) -> Result<()> {
+    let maybe = |value: Option<f64>| value.map_or(String::new(), |v| format!("{v:.1}"));
+    say(format_args!(
+        "{:<26} {:>7}  {:<24} {:>10.1} {:>10.1} {:>10.1} {:>9} {:>7} {:>6.2} {:>10}",
+        row.case,
+        row.queries,
+        row.planner,
+        row.mean_us,
+        row.median_us,
+        row.p95_us,
+        maybe(row.ns_per_expansion),
+        maybe(row.bytes_per_cell),
+        ratio,
+        row.mismatches
+    ))
+}
+
+/// The maps of a folder in the order of their names.
+fn maps(folder: &Path, containing: &str) -> Result<Vec<PathBuf>> {
+    let entries = std::fs::read_dir(folder)
+        .with_context(|| format!("{}: expected a folder of .map files", folder.display()))?;
+    let mut maps = vec![];
+    for entry in entries {
+        let path = entry?.path();
+        let name = path.file_name().unwrap_or_default().to_string_lossy();
+        if name.ends_with(".map") && name.contains(containing) {
+            maps.push(path.clone());
+        }
+    }
+    maps.sort();
+    if maps.is_empty() {
+        bail!("{}: no .map file of that name in it", folder.display());
+    }
+    Ok(maps)
+}
+
+fn bench_map(map: &Path, queries: usize) -> Result<Vec<Row>> {
+    let grid = load_grid(map, &LoadOptions::default())?.grid;
+    let scen = read_scen(&PathBuf::from(format!("{}.scen", map.display())))?;
+    scen.check_size(&grid)?;
+    let case = map.file_stem().unwrap_or_default().to_string_lossy();
+    let mut contenders = contenders();
+    let mut tallies = vec![Tally::default(); contenders.len()];
+    let mut bytes = vec![None; contenders.len()];
+    let every = scen.rows.len().div_ceil(queries.max(1)).max(1);
+    for row in scen.rows.iter().step_by(every) {
+        let problem = GridProblem::new(Arc::clone(&grid), row.start, row.goal)?;
+        let mut least = vec![Duration::MAX; contenders.len()];
+        let mut agreed = None;
+        for repetition in 0..REPETITIONS {
+            for (k, (_, answer)) in contenders.iter_mut().enumerate() {
+                let (time, answer) = timed(|| answer(&problem));
+                least[k] = least[k].min(time);
+                if repetition == 0 {
+                    tallies[k].expanded += answer.expanded;
+                    bytes[k] = answer.bytes.or(bytes[k]);
+                    let agreed = *agreed.get_or_insert(answer.cost);
+                    let right = agrees(&scen, row, answer.cost) && answer.cost == agreed;
+                    tallies[k].mismatches += u64::from(!right);
+                }
+            }
+        }
+        for (tally, least) in tallies.iter_mut().zip(least) {
+            tally.add(least);
+        }
+    }
+    let cells = f64::from(grid.width()) * f64::from(grid.height());
+    let rows = tallies.iter().zip(contenders).zip(bytes);
+    Ok(rows
+        .map(|((tally, (name, _)), bytes)| Row {
+            #[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
+            bytes_per_cell: bytes.map(|bytes| bytes as f64 / cells),
+            ..tally.row(&case, name)
+        })
+        .collect())
+}
+
+fn agrees(scen: &Scen, row: &pf_io::ScenRow, cost: Option<GridCost>) -> bool {
+    cost.is_some_and(|cost| scen.agrees(row, cost.value()))
 }

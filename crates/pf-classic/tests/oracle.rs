@@ -6,7 +6,7 @@ use pf_conformance::{
     seeded,
 };
 use pf_core::{Context, Outcome, Planner, Problem, Replanner, Report};
-use pf_grid::{GridCost, GridProblem};
+use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem};
 use rand::RngExt;
 
 /// The proven cost, or the proof that there is none; the judge confirms it.
@@ -94,4 +94,49 @@ fn d_star_lite_is_exact_when_it_never_gives_up() {
         repaired > 12_000,
         "{repaired} repairs are too few to say much"
     );
+}
+
+/// Every other row is a wall with a gap at alternating ends.
+fn serpentine(side: u32) -> GridProblem {
+    let grid = Grid::new(side, side, |cell| {
+        let gap = if cell.y % 4 == 1 { side - 1 } else { 0 };
+        u8::from(cell.y % 2 == 0 || cell.x == gap)
+    });
+    let last = Cell::new(side - 1, side - 2);
+    GridProblem::new(grid.unwrap(), Cell::new(0, 0), last).unwrap()
+}
+
+/// Paths too long for 32 bits to order: every search must notice and count wider.
+#[test]
+fn long_paths_are_exact() {
+    let mut problem = serpentine(320);
+    let expected = oracle(&problem);
+    assert!(expected.unwrap().value() > 50_000.0);
+    let mut dstar = DStarLite::default();
+    let mut planners: [Box<dyn Planner<GridProblem>>; 2] =
+        [Box::new(AStar::default()), Box::new(Dijkstra::default())];
+    for planner in &mut planners {
+        let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        assert_eq!(proven(&problem, &report), expected, "{}", planner.name());
+    }
+    let report = dstar.plan(&problem, &mut Context::seeded(0)).unwrap();
+    assert_eq!(proven(&problem, &report), expected);
+
+    // A shortcut near the start, then a wall that makes the way long again, then terrain.
+    for changes in [
+        GridChange::Freed(vec![Cell::new(160, 1)]),
+        GridChange::Blocked(vec![Cell::new(160, 1)]),
+        GridChange::CostChanged((0..300).map(|x| Cell::new(x, 160)).collect(), 200),
+        GridChange::Blocked(vec![Cell::new(7, 300)]),
+    ] {
+        let changes = [changes];
+        let revision = problem.revise(&changes).unwrap();
+        let report = dstar.replan(&revision, &mut Context::seeded(0)).unwrap();
+        let expected = oracle(&problem);
+        assert_eq!(proven(&problem, &report), expected, "{changes:?}");
+        for planner in &mut planners {
+            let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+            assert_eq!(proven(&problem, &report), expected, "{}", planner.name());
+        }
+    }
 }

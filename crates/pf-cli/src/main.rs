@@ -1,1 +1,83 @@
-fn main() {}
+//! `pf`: plan, replan and compare planners from the command line.
+//!
+//! Data goes to standard output, messages and progress to standard error. Exit codes: 0 ok,
+//! 1 internal error, 2 usage, 3 bad input file, 4 proved that there is no path, 5 none found within
+//! the budget, 6 a check failed, 130 interrupted.
+
+mod args;
+mod demo;
+mod explain;
+mod failure;
+mod interrupt;
+mod plan;
+mod planners;
+mod question;
+mod replan;
+mod report;
+mod scen;
+mod text;
+
+use clap::{Parser, Subcommand};
+use failure::{Failure, Status};
+use std::process::ExitCode;
+
+/// Small 2D path planners behind one trait.
+#[derive(Parser)]
+#[command(name = "pf", version, max_term_width = 100, after_help = EXAMPLES)]
+struct Program {
+    #[command(subcommand)]
+    verb: Verb,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  pf demo
+  pf plan office.yaml --from 20,30 --to 370,270 --radius 3 --svg office.svg
+  pf plan arena.map --scen arena.map.scen
+  pf replan door.toml --planner d-star-lite --json
+
+Exit codes:
+  0 ok              3 bad input file                6 a check failed
+  1 internal error  4 proved that there is no path  130 interrupted
+  2 usage           5 no path found within the budget";
+
+#[derive(Subcommand)]
+enum Verb {
+    /// Plan a path on a map
+    Plan(plan::Args),
+    /// Play the timed changes of a scenario and plan anew after each
+    Replan(replan::Args),
+    /// List the planners
+    Planners(planners::Args),
+    /// Compare all planners on a few maps and draw pictures
+    Demo(demo::Args),
+}
+
+fn main() -> ExitCode {
+    let program = Program::parse();
+    match act(program.verb) {
+        Ok(status) => status.into(),
+        Err(failure) => failure.tell(),
+    }
+}
+
+fn act(verb: Verb) -> Result<Status, Failure> {
+    let cancel = interrupt::token()?;
+    match verb {
+        Verb::Plan(args) => plan::act(&args, &cancel),
+        Verb::Replan(args) => replan::act(&args, &cancel),
+        Verb::Planners(args) => planners::act(&args),
+        Verb::Demo(args) => demo::act(&args, &cancel),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Program;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_sound() {
+        Program::command().debug_assert();
+    }
+}

@@ -2,7 +2,21 @@
 
 pub mod grid;
 
+mod answer;
+mod exam;
+mod law;
+pub mod rogues;
+mod run;
+mod stage;
+mod suite;
+mod trial;
+mod verdict;
+
+pub use exam::{examine, examine_replanner};
+pub use law::{Binds, Law, laws};
 pub use pf_core::PlanRng;
+pub use suite::{Case, Options, Plot, Story, Suite, Truth};
+pub use verdict::{Breach, Verdict};
 
 /// The generator for `seed`.
 #[must_use]

@@ -156,6 +156,8 @@ impl<W: Word> Field<W> {
                 }
             }
         }
+        // What still waits there lies beyond the limit, unless the start was found first.
+        self.too_far |= bound == W::LIMIT && !self.fresh.is_empty();
         End::Settled
     }
 

@@ -1,5 +1,6 @@
 //! The truth about grid problems: a plain Dijkstra of the kit's own, slow and easy to believe.
 
+use pf_core::Problem;
 use pf_grid::{Cell, GridCost, GridProblem};
 use std::{cmp::Reverse, collections::BinaryHeap};
 
@@ -16,8 +17,8 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 /// ```
 #[must_use]
 pub fn oracle(problem: &GridProblem) -> Option<GridCost> {
-    match search(problem, 0, |_| true) {
-        Found::Path(_, cost) => Some(cost),
+    match search(problem, |_| true) {
+        Found::Path(path) => problem.judge(&path).ok(),
         Found::Nothing | Found::Stopped => None,
     }
 }
@@ -25,7 +26,7 @@ pub fn oracle(problem: &GridProblem) -> Option<GridCost> {
 /// How a [`search`] ended.
 pub(crate) enum Found {
     /// With a best path.
-    Path(Vec<Cell>, GridCost),
+    Path(Vec<Cell>),
     /// Knowing that there is none.
     Nothing,
     /// When it was told to.
@@ -33,26 +34,20 @@ pub(crate) enum Found {
 }
 
 /// Settles cells in the order of their distance from the start, until the goal is. Each is shown
-/// to `visit` before it is settled, which may say `false` to stop the search. Among cells equally
-/// far the one with the least `id ^ tie` comes first.
+/// to `visit` before it is settled, which may say `false` to stop the search.
 ///
 /// E. W. Dijkstra: A note on two problems in connexion with graphs. Numerische Mathematik 1, 1959.
-pub(crate) fn search(
-    problem: &GridProblem,
-    tie: u32,
-    mut visit: impl FnMut(Cell) -> bool,
-) -> Found {
+pub(crate) fn search(problem: &GridProblem, mut visit: impl FnMut(Cell) -> bool) -> Found {
     let (grid, start, goal) = (problem.grid(), problem.start(), problem.goal());
     let layout = grid.layout();
     let mut reached: Vec<Option<(GridCost, Cell)>> = vec![None; layout.len()];
     let mut open = BinaryHeap::new();
     if grid.is_free(start) {
         reached[layout.id(start) as usize] = Some((GridCost::ZERO, start));
-        open.push(Reverse((GridCost::ZERO, layout.id(start) ^ tie)));
+        open.push(Reverse((GridCost::ZERO, start)));
     }
-    while let Some(Reverse((cost, key))) = open.pop() {
-        let cell = layout.cell(key ^ tie);
-        if reached[(key ^ tie) as usize].is_some_and(|(best, _)| best < cost) {
+    while let Some(Reverse((cost, cell))) = open.pop() {
+        if reached[layout.id(cell) as usize].is_some_and(|(best, _)| best < cost) {
             continue;
         }
         if !visit(cell) {
@@ -63,13 +58,13 @@ pub(crate) fn search(
             let back = |c: &Cell| parent(c).filter(|parent| parent != c);
             let mut path: Vec<_> = std::iter::successors(Some(goal), back).collect();
             path.reverse();
-            return Found::Path(path, cost);
+            return Found::Path(path);
         }
         for (next, step) in grid.neighbours(cell, problem.moves()) {
-            let (id, through) = (layout.id(next), cost + step);
-            if reached[id as usize].is_none_or(|(best, _)| through < best) {
-                reached[id as usize] = Some((through, cell));
-                open.push(Reverse((through, id ^ tie)));
+            let (best, through) = (&mut reached[layout.id(next) as usize], cost + step);
+            if best.is_none_or(|(best, _)| through < best) {
+                *best = Some((through, cell));
+                open.push(Reverse((through, next)));
             }
         }
     }

@@ -11,6 +11,9 @@ use std::ops::RangeInclusive;
 
 /// Grids with a number of columns and of rows from `sizes`, with a share of blocked cells from
 /// `densities` (0 to 1), and with terrain or without. They shrink towards small and open ones.
+///
+/// # Panics
+/// If there are no such grids.
 pub fn grids(
     sizes: RangeInclusive<u32>,
     densities: RangeInclusive<f64>,
@@ -34,6 +37,9 @@ pub fn grids(
 
 /// Problems on [`grids`] of these sizes, with few obstacles or many, with terrain or without, under
 /// any moves. Start and goal may be blocked, or one.
+///
+/// # Panics
+/// If there are no such grids.
 pub fn problems(sizes: RangeInclusive<u32>) -> impl Strategy<Value = GridProblem> {
     let grids = prop_oneof![
         grids(sizes.clone(), 0.0..=0.5, false),

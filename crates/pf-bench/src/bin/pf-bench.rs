@@ -1,4 +1,0 @@
-//! Probe
-fn main() {
-    pf_bench::grid::main()
-}

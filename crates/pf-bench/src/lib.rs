@@ -1,3 +1,0 @@
-//! Benchmarks beside other crates, by one protocol.
-
-pub mod grid;

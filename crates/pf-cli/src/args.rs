@@ -1,0 +1,130 @@
+//! Options that several verbs share.
+
+use crate::failure::Failure;
+use clap::Args;
+use pf_core::{Budget, CancelToken, InvalidParams};
+use pf_grid::{Cell, Moves};
+use pf_io::Unknown;
+use pf_planners::{AnyEntry, Order, Runner, find};
+use pf_render::Recorder;
+use std::{num::NonZeroUsize, time::Duration};
+
+/// Which planner, and within what.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Planner")]
+pub(crate) struct PlannerArgs {
+    /// Which planner; `pf planners` lists them
+    #[arg(long, value_name = "NAME")]
+    pub(crate) planner: Option<String>,
+    /// Set a parameter of the planner; may be given again
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
+    pub(crate) settings: Vec<(String, String)>,
+    /// Seed of all chance
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(crate) seed: u64,
+    /// Stop after this time: 50ms, 2s, 1m
+    #[arg(long, value_name = "DURATION", value_parser = humantime::parse_duration)]
+    pub(crate) time: Option<Duration>,
+    /// Stop after so many iterations
+    #[arg(long, value_name = "N")]
+    pub(crate) iterations: Option<u64>,
+    /// How many threads a planner may use; results do not depend on it
+    #[arg(long, value_name = "N")]
+    pub(crate) threads: Option<NonZeroUsize>,
+}
+
+impl PlannerArgs {
+    /// The entry asked for.
+    pub(crate) fn entry(&self, default: &str) -> Result<&'static dyn AnyEntry, Failure> {
+        find(self.planner.as_deref().unwrap_or(default)).map_err(|error| {
+            let known = format!("the planners are {}", error.known().join(", "));
+            Failure::usage(error.to_string()).help(known)
+        })
+    }
+
+    /// A planner as asked for, with these settings besides.
+    pub(crate) fn runner(
+        &self,
+        entry: &dyn AnyEntry,
+        more: &[(&str, &str)],
+    ) -> Result<Box<dyn Runner>, Failure> {
+        let mut settings = self.settings.clone();
+        settings.extend(more.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())));
+        entry.runner(&settings).map_err(|error| {
+            let failure = Failure::usage(format!("--set: {error}"));
+            match error {
+                InvalidParams::UnknownKey { .. } => {
+                    let key = entry.key();
+                    failure.help(format!("`pf planners` explains the parameters of {key}"))
+                }
+                _ => failure,
+            }
+        })
+    }
+
+    /// The seed and the budget asked for.
+    pub(crate) fn order<'a>(
+        &self,
+        cancel: &CancelToken,
+        recorder: Option<&'a mut Recorder>,
+    ) -> Order<'a> {
+        let mut budget = Budget::unlimited().cancel(cancel);
+        if let Some(time) = self.time {
+            budget = budget.time(time);
+        }
+        if let Some(iterations) = self.iterations {
+            budget = budget.iterations(iterations);
+        }
+        Order {
+            seed: self.seed,
+            budget,
+            recorder,
+        }
+    }
+}
+
+/// The question, where the file does not say it or says it otherwise.
+#[derive(Args, Debug)]
+#[command(next_help_heading = "Question")]
+pub(crate) struct QuestionArgs {
+    /// Where from: column and row, from 0, rows down
+    #[arg(long, value_name = "X,Y")]
+    pub(crate) from: Option<Cell>,
+    /// Where to
+    #[arg(long, value_name = "X,Y")]
+    pub(crate) to: Option<Cell>,
+    /// The robot's radius in cells
+    #[arg(long, value_name = "R", value_parser = radius)]
+    pub(crate) radius: Option<f64>,
+    /// Which steps are allowed: orthogonal, always, one-corner, no-corner-cutting
+    #[arg(long, value_name = "RULE")]
+    pub(crate) moves: Option<Moves>,
+    /// What unknown cells of a ROS map count as: free, blocked
+    #[arg(long, value_name = "WHAT", value_parser = unknown)]
+    pub(crate) unknown: Option<Unknown>,
+    /// Only this case of a scenario file
+    #[arg(long, value_name = "NAME")]
+    pub(crate) case: Option<String>,
+}
+
+fn setting(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.is_empty() => Ok((key.to_owned(), value.to_owned())),
+        _ => Err("a setting is written key=value".to_owned()),
+    }
+}
+
+fn radius(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(radius) if radius >= 0.0 && radius.is_finite() => Ok(radius),
+        _ => Err("a radius is a number of cells from 0".to_owned()),
+    }
+}
+
+fn unknown(text: &str) -> Result<Unknown, String> {
+    match text {
+        "free" => Ok(Unknown::Free),
+        "blocked" => Ok(Unknown::Blocked),
+        _ => Err("expected free or blocked".to_owned()),
+    }
+}

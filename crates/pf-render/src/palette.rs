@@ -1,0 +1,29 @@
+//! Colours after Okabe and Ito, "Color Universal Design" (2008).
+
+/// Paths, in the order they are added.
+pub(crate) const PATHS: [&str; 6] = [
+    "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#000000",
+];
+pub(crate) const START: &str = "#009e73";
+pub(crate) const GOAL: &str = "#0072b2";
+pub(crate) const NEW_BLOCKED: &str = "#cc79a7";
+pub(crate) const NEW_FREE: &str = "#f0e442";
+pub(crate) const NEW_COST: &str = "#e69f00";
+
+pub(crate) const FREE: &str = "#ffffff";
+pub(crate) const INFLATED: &str = "#d9dde3";
+pub(crate) const FRAME: &str = "#8a919c";
+pub(crate) const TEXT: &str = "#24292f";
+
+/// Blocked cells: all, and on a map drawn coarser than its cells the parts of one in four.
+pub(crate) const BLOCKED: [&str; 4] = ["#b9bfc8", "#8a919c", "#5d646e", "#2f343b"];
+
+/// Terrain from cheap to dear.
+pub(crate) const TERRAIN: [&str; 6] = [
+    "#fbf3df", "#f3e3bb", "#e8cf95", "#d8b76f", "#c49c4c", "#a87d30",
+];
+
+/// Expanded cells from the first to the last.
+pub(crate) const HEAT: [&str; 8] = [
+    "#e8f4fb", "#d3eaf8", "#bce0f4", "#a3d3ee", "#88c4e6", "#6cb2da", "#4f9dca", "#3586b6",
+];
