@@ -6,6 +6,7 @@ mod bless;
 mod ci;
 mod conformance;
 mod laws;
+mod maps;
 mod new_planner;
 mod office;
 mod planners;
@@ -47,6 +48,8 @@ enum Verb {
     Maps,
     /// Runs a benchmark suite of pf-bench, optimised: `cargo xtask bench grid --json`
     Bench(bench::Args),
+    /// Draws the maps that are made here: maps/grids/office.yaml and its picture
+    Maps,
     /// Makes a crate for a new planner, with a conformance test that fails until it is written
     NewPlanner(new_planner::Args),
 }
@@ -71,6 +74,7 @@ fn main() -> ExitCode {
         Verb::Bless => bless::run(),
         Verb::Maps => office::run(),
         Verb::Bench(args) => bench::run(&args),
+        Verb::Maps => maps::run(),
         Verb::NewPlanner(args) => new_planner::run(&args),
     };
     match verdict {

@@ -61,7 +61,7 @@ pub(crate) fn run() -> Result<Verdict> {
     let packages = workspace::packages(root())?;
     let sources = workspace::sources(root())?;
     let generated = [
-        (laws::FILE, laws::page(), "cargo xtask laws --write"),
+        (laws::FILE, laws::page()?, "cargo xtask laws --write"),
         (
             planners::FILE,
             planners::page()?,

@@ -1,11 +1,14 @@
 //! `pf planners`: what there is.
 
 use crate::failure::{Failure, Status};
-use comfy_table::{ContentArrangement, Table, presets};
+use comfy_table::{Table, presets};
 use pf_core::Claims;
 use pf_planners::{AnyEntry, all};
 use serde::Serialize;
-use std::io::{Write, stdout};
+use std::{
+    fmt::Write as _,
+    io::{Write, stdout},
+};
 
 #[derive(clap::Args)]
 #[command(after_help = "\
@@ -81,36 +84,31 @@ pub(crate) fn act(args: &Args) -> Result<Status, Failure> {
         return Ok(Status::Done);
     }
     let mut table = Table::new();
-    table
-        .load_style(presets::UTF8_FULL_CONDENSED)
-        .set_content_arrangement(ContentArrangement::Dynamic)
-        .set_header([
-            "name",
-            "problem",
-            "claims",
-            "after a change",
-            "paper",
-            "parameters (--set)",
-        ]);
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header([
+        "name",
+        "problem",
+        "claims",
+        "after a change",
+        "paper",
+    ]);
+    let mut parameters = String::new();
     for planner in described {
-        let parameters: Vec<_> = planner
-            .parameters
-            .iter()
-            .map(|p| format!("{}: {}", p.name, p.about))
-            .collect();
         table.add_row([
             planner.name,
             planner.problem,
             &planner.claims.join(", "),
             planner.replans,
             planner.paper,
-            &parameters.join("\n"),
         ]);
-    }
-    if table.width().is_none() {
-        // No terminal to fit: a page's width.
-        table.set_width(110);
+        for Parameter { name, about } in planner.parameters {
+            let _ = writeln!(parameters, "  {:<12} {name:<10} {about}", planner.name);
+        }
     }
     writeln!(out, "{table}")?;
+    writeln!(
+        out,
+        "Parameters (--set key=value):\n{}",
+        parameters.trim_end()
+    )?;
     Ok(Status::Done)
 }

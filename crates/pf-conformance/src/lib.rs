@@ -1,11 +1,11 @@
-//! The laws every planner keeps, as tests for planners of your own.
+#![doc = include_str!("../README.md")]
 
 pub mod grid;
+pub mod rogues;
 
 mod answer;
 mod exam;
 mod law;
-pub mod rogues;
 mod run;
 mod stage;
 mod suite;

@@ -12,7 +12,6 @@ const MACHINE_PATHS: &[&str] = &[
     concat!("/ho", "me/"),
     concat!("/Us", "ers/"),
     concat!("/ro", "ot/"),
-    concat!("/tm", "p/"),
     concat!("C:", "\\Users"),
     concat!("file", ":///"),
 ];
