@@ -44,8 +44,6 @@ enum Verb {
     Tidy,
     /// Re-writes the golden files of the tests from what the code does now
     Bless,
-    /// Draws the office's floor plan again: maps/grids/office.yaml and office.pgm
-    Maps,
     /// Runs a benchmark suite of pf-bench, optimised: `cargo xtask bench grid --json`
     Bench(bench::Args),
     /// Draws the maps that are made here: maps/grids/office.yaml and its picture
@@ -72,7 +70,6 @@ fn main() -> ExitCode {
         Verb::Planners(page) => planners::run(page.write),
         Verb::Tidy => tidy::run(),
         Verb::Bless => bless::run(),
-        Verb::Maps => office::run(),
         Verb::Bench(args) => bench::run(&args),
         Verb::Maps => maps::run(),
         Verb::NewPlanner(args) => new_planner::run(&args),

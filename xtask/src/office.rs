@@ -1,8 +1,7 @@
-//! `cargo xtask maps`: draws the floor plan of an office: `maps/grids/office.yaml` and `office.pgm`.
+//! Draws the floor plan of an office: `maps/grids/office.yaml` and `office.pgm`.
 //!
 //! A cell is 5 cm. Rectangles are `[left, top, right, bottom]`, right and bottom not included.
 
-use crate::steps::Verdict;
 use pf_io::{FileError, Frame, RosMap, RosMode, write_gray, write_ros_yaml};
 use std::path::Path;
 
@@ -67,12 +66,6 @@ enum Leaf {
     Behind,
     /// There is none.
     Gone,
-}
-
-/// Draws the files under `maps/grids` again.
-pub(crate) fn run() -> anyhow::Result<Verdict> {
-    write(&crate::workspace::root().join("maps/grids"))?;
-    Ok(Verdict::Passed)
 }
 
 /// Writes `office.yaml` and `office.pgm` into `folder`.
