@@ -87,7 +87,7 @@ fn golden_trace_of_d_star_lite() {
         GridChange::Blocked(vec![Cell::new(9, 4), Cell::new(9, 5), Cell::new(9, 6)]),
     ];
     let revision = problem.revise(&changes).expect("they make sense");
-    text += &format!("\nafter {changes:?}\n\n");
+    write!(text, "\nafter {changes:?}\n\n").expect("a string takes text");
     let replan = |cx: &mut Context<'_, _>| planner.replan(&revision, cx).expect("supported");
     text += &events(replan).expect("a string takes text");
     golden::check("d-star-lite", &text);
