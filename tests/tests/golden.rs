@@ -1,10 +1,10 @@
 //! One seed, one trace: what each planner looks at, in which order, and what it answers.
 
-use pf_classic::{AStar, Dijkstra};
-use pf_core::{Context, Event, Planner};
-use pf_grid::{Cell, Grid, GridProblem, Moves};
+use pf_classic::{AStar, DStarLite, Dijkstra};
+use pf_core::{Context, Event, Planner, Problem, Replanner, Report};
+use pf_grid::{Cell, Grid, GridChange, GridProblem, Moves};
 use pf_tests::golden;
-use std::fmt::Write as _;
+use std::fmt::{self, Write as _};
 
 /// A room with a trap in it, and a swamp before the door.
 const MAP: &str = "
@@ -23,34 +23,38 @@ fn problem(moves: Moves) -> GridProblem {
     problem.expect("cells of the map").with_moves(moves)
 }
 
-/// Everything a planner shows of one search, one event a line.
-fn trace(planner: &mut dyn Planner<GridProblem>, moves: Moves) -> String {
-    let mut text = format!("{}, {moves}\n{}\n\n", planner.name(), MAP.trim_end());
+/// Everything a planner shows while `ask` asks it, one event a line.
+fn events(
+    ask: impl FnOnce(&mut Context<'_, GridProblem>) -> Report<GridProblem>,
+) -> Result<String, fmt::Error> {
+    let mut lines = Vec::new();
     let mut listen = |event: &Event<'_, GridProblem>| {
-        let line = match event {
+        lines.push(match event {
             Event::Expanded(cell) => format!("expanded {cell}"),
             Event::Improved(best) => format!("improved {}", best.cost),
             other => format!("{other:?}"),
-        };
-        writeln!(text, "{line}").expect("a string takes text");
+        });
     };
-    let mut cx = Context::seeded(7).traced(&mut listen);
-    let report = planner.plan(&problem(moves), &mut cx).expect("supported");
-    write!(
-        text,
-        "{} in {} iterations:",
-        report.outcome.word(),
-        report.stats.iterations
-    )
-    .expect("a string takes text");
+    let report = ask(&mut Context::seeded(7).traced(&mut listen));
+    let (word, n) = (report.outcome.word(), report.stats.iterations);
+    let mut text = lines.join("\n");
+    write!(text, "\n{word} in {n} iterations:")?;
     for cell in report
         .outcome
         .solved()
         .map_or(&[][..], |best| &best.solution)
     {
-        write!(text, " {cell}").expect("a string takes text");
+        write!(text, " {cell}")?;
     }
-    text + "\n"
+    text.push('\n');
+    Ok(text)
+}
+
+/// What a planner shows of a plan.
+fn trace(planner: &mut dyn Planner<GridProblem>, moves: Moves) -> String {
+    let head = format!("{}, {moves}\n{}\n\n", planner.name(), MAP.trim_end());
+    let plan = |cx: &mut Context<'_, _>| planner.plan(&problem(moves), cx).expect("supported");
+    head + &events(plan).expect("a string takes text")
 }
 
 #[test]
@@ -68,4 +72,23 @@ fn golden_trace_of_dijkstra() {
         "dijkstra",
         &trace(&mut Dijkstra::default(), Moves::default()),
     );
+}
+
+#[test]
+fn golden_trace_of_d_star_lite() {
+    let mut planner = DStarLite::default();
+    let mut text = trace(&mut planner, Moves::default());
+
+    let mut problem = problem(Moves::default());
+    let plan = planner.plan(&problem, &mut Context::seeded(7));
+    plan.expect("supported");
+    let changes = [
+        GridChange::StartMoved(Cell::new(2, 5)),
+        GridChange::Blocked(vec![Cell::new(9, 4), Cell::new(9, 5), Cell::new(9, 6)]),
+    ];
+    let revision = problem.revise(&changes).expect("they make sense");
+    write!(text, "\nafter {changes:?}\n\n").expect("a string takes text");
+    let replan = |cx: &mut Context<'_, _>| planner.replan(&revision, cx).expect("supported");
+    text += &events(replan).expect("a string takes text");
+    golden::check("d-star-lite", &text);
 }

@@ -5,7 +5,8 @@ use anyhow::Result;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
-    /// Passed on to pf-bench as they are
+    /// Passed on to pf-bench as they are; the suite is `grid` unless named.
+    /// `cargo xtask bench help` lists suites, `cargo xtask bench grid --help` options
     #[arg(
         value_name = "SUITE] [OPTION",
         trailing_var_arg = true,
@@ -14,7 +15,31 @@ pub(crate) struct Args {
     args: Vec<String>,
 }
 
+impl Args {
+    /// The suite in whose stead there is an option, or nothing.
+    fn suite(&self) -> Option<&'static str> {
+        let named = self.args.first().is_some_and(|arg| !arg.starts_with('-'));
+        (!named).then_some("grid")
+    }
+}
+
 pub(crate) fn run(args: &Args) -> Result<Verdict> {
     let mut command = cargo(["run", "--release", "--quiet", "--package", "pf-bench", "--"]);
-    passes(command.args(&args.args))
+    passes(command.args(args.suite()).args(&args.args))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_suite_may_be_left_out() {
+        let suite = |args: &[&str]| {
+            let args = args.iter().map(|&arg| arg.to_owned()).collect();
+            Args { args }.suite()
+        };
+        assert_eq!(suite(&[]), Some("grid"));
+        assert_eq!(suite(&["--json"]), Some("grid"));
+        assert_eq!(suite(&["memory", "--json"]), None);
+    }
 }
