@@ -119,6 +119,12 @@ impl Rectangle {
             .unwrap_or_else(|| nalgebra::center(&self.min, &self.max))
     }
 
+    /// Where its potential is highest, if that was said.
+    #[must_use]
+    pub fn own_peak(&self) -> Option<Point> {
+        self.peak
+    }
+
     /// Its corners, counterclockwise from the lower left.
     #[must_use]
     pub fn corners(&self) -> [Point; 4] {
