@@ -105,7 +105,13 @@ impl Planner<WorldProblem> for VisibilityGraph {
         problem: &WorldProblem,
         cx: &mut Context<'_, WorldProblem>,
     ) -> Result<Report<WorldProblem>, Unsupported> {
-        Ok(match self.graph.shortest(problem, cx) {
+        let answer = self.graph.shortest(problem, cx);
+        if cx.listening() {
+            for piece in self.graph.free_pieces() {
+                cx.points("free piece", || vec![piece.a, piece.b]);
+            }
+        }
+        Ok(match answer {
             Answer::Route(route) => {
                 let path = self.flattened(problem, &route);
                 cx.answer(problem, path, Proof::Optimal)
