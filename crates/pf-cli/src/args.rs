@@ -94,7 +94,7 @@ pub(crate) struct QuestionArgs {
     #[arg(long, value_name = "X,Y")]
     pub(crate) to: Option<Cell>,
     /// The robot's radius in cells
-    #[arg(long, value_name = "R", value_parser = radius)]
+    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
     pub(crate) radius: Option<f64>,
     /// Which steps are allowed: orthogonal, always, one-corner, no-corner-cutting
     #[arg(long, value_name = "RULE")]

@@ -10,7 +10,7 @@ use crate::{
 use comfy_table::{CellAlignment, Table, presets};
 use pf_core::{Budget, CancelToken};
 use pf_grid::{Cell, Grid, Moves};
-use pf_io::parse_movingai;
+use pf_io::{FileError, Unknown, parse_movingai, parse_ros};
 use pf_planners::{Answer, AnyEntry, Order, Scene, all};
 use pf_render::Recorder;
 use std::{
@@ -33,10 +33,12 @@ pub(crate) struct Args {
     out: PathBuf,
 }
 
+const REPETITIONS: usize = 3;
+
 /// A map that the program carries, and a question worth asking on it.
 struct Show {
     name: &'static str,
-    map: &'static [u8],
+    map: fn() -> Result<Grid, FileError>,
     from: Cell,
     to: Cell,
     moves: Moves,
@@ -51,8 +53,19 @@ macro_rules! carried {
 
 const SHOWS: &[Show] = &[
     Show {
+        name: "office",
+        map: || {
+            let yaml = parse_ros("office.yaml", carried!("office.yaml"))?;
+            yaml.grid("office.pgm", carried!("office.pgm"), Unknown::Blocked)
+        },
+        from: Cell::new(324, 278),
+        to: Cell::new(40, 248),
+        moves: Moves::OnlyWhenNoObstacles,
+        radius: 3.0,
+    },
+    Show {
         name: "maze",
-        map: carried!("redlarski/maze-100.map"),
+        map: || parse_movingai("maze", carried!("redlarski/maze-100.map")),
         from: Cell::new(0, 0),
         to: Cell::new(99, 99),
         moves: Moves::Always,
@@ -60,10 +73,10 @@ const SHOWS: &[Show] = &[
     },
     Show {
         name: "mosaic",
-        map: carried!("redlarski/mosaic-100.map"),
+        map: || parse_movingai("mosaic", carried!("redlarski/mosaic-100.map")),
         from: Cell::new(2, 54),
         to: Cell::new(97, 54),
-        moves: Moves::OnlyWhenNoObstacles,
+        moves: Moves::Always,
         radius: 0.0,
     },
 ];
@@ -73,9 +86,14 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
         Failure::Internal(format!("{} cannot be made: {error}", args.out.display()))
     })?;
     let mut table = Table::new();
-    table
-        .load_style(presets::UTF8_FULL_CONDENSED)
-        .set_header(["map", "planner", "found", "length", "% over", "time"]);
+    table.load_style(presets::UTF8_FULL_CONDENSED).set_header([
+        "map",
+        "planner",
+        "found",
+        "length",
+        "% over shortest",
+        "time",
+    ]);
     for column in table.column_iter_mut().skip(3) {
         column.set_cell_alignment(CellAlignment::Right);
     }
@@ -102,14 +120,14 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
 
 impl Show {
     fn question(&self) -> Result<Question, Failure> {
-        let grid: Grid = parse_movingai(self.name, self.map)?;
-        let scene = Scene::new(grid, self.from, self.to)?
+        let scene = Scene::new((self.map)()?, self.from, self.to)?
             .with_moves(self.moves)
             .with_radius(self.radius)?;
         Ok(Question::of(self.name, scene))
     }
 
-    /// Plans and draws; the clock runs without the listener that a picture needs.
+    /// Plans and draws. The time told is the best of a few, without the listener that a picture
+    /// needs: the first call on a map also asks the system for memory.
     fn plan(
         &self,
         entry: &dyn AnyEntry,
@@ -124,7 +142,13 @@ impl Show {
             budget: Budget::unlimited().cancel(cancel),
             recorder,
         };
-        let answer = runner.plan(&question.scene, order(None))?;
+        let mut answer = runner.plan(&question.scene, order(None))?;
+        for _ in 1..REPETITIONS {
+            let again = runner.plan(&question.scene, order(None))?;
+            if again.stats.elapsed < answer.stats.elapsed {
+                answer = again;
+            }
+        }
         let mut recorder = Recorder::default();
         let told = Told {
             entry,

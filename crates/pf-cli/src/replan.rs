@@ -10,11 +10,12 @@ use crate::{
     text,
 };
 use pf_core::CancelToken;
-use pf_grid::GridChange;
+use pf_grid::{Cell, Grid, GridChange};
 use pf_planners::{AnyEntry, Line, Runner};
 use pf_render::Line as Pen;
 use serde::Serialize;
 use std::{
+    collections::BTreeSet,
     io::{Write, stdout},
     path::PathBuf,
     time::Duration,
@@ -127,7 +128,7 @@ impl Play<'_> {
         let first: Option<Line> = told.answer.lines.first().cloned();
         let mut status = self.tell(&moment, &mut told)?;
         let mut failed = status == Status::CheckFailed;
-        let mut happened: Vec<GridChange> = Vec::new();
+        let before = question.scene.map().clone();
         for event in events {
             if self.cancel.is_cancelled() {
                 return Ok(Status::Interrupted);
@@ -142,11 +143,10 @@ impl Play<'_> {
             };
             let followed = question.scene.change(&event.changes)?;
             let answer = self.runner.replan(&followed, self.order())?;
-            happened.extend(event.changes);
             status = self.tell(&moment, &mut self.told(question, answer))?;
             failed |= status == Status::CheckFailed;
         }
-        self.picture(question, first.as_ref(), &happened)?;
+        self.picture(question, first.as_ref(), &before)?;
         Ok(if failed { Status::CheckFailed } else { status })
     }
 
@@ -200,12 +200,13 @@ impl Play<'_> {
         Ok(status)
     }
 
-    /// The map as it is now; the last answer is planned once more, for a picture has time.
+    /// The map as it is now, and what became of it; the last answer is planned once more, for a
+    /// picture has time.
     fn picture(
         &mut self,
         question: &Question,
         first: Option<&Line>,
-        happened: &[GridChange],
+        before: &Grid,
     ) -> Result<(), Failure> {
         let (svg, png) = (self.args.svg.as_deref(), self.args.png.as_deref());
         if svg.is_none() && png.is_none() {
@@ -213,20 +214,35 @@ impl Play<'_> {
         }
         let scene = &question.scene;
         let answer = self.runner.plan(scene, self.order())?;
-        let mut picture = report::ground(scene).changed(happened);
-        if let Some(line) = answer.lines.first() {
-            picture = report::path(picture, scene, "in the end", Pen::Solid, line);
-        }
+        let mut picture = report::ground(scene).changed(&between(before, scene.map()));
         if let Some(line) = first {
             picture = report::path(picture, scene, "at first", Pen::Dashed, line);
         }
+        if let Some(line) = answer.lines.first() {
+            picture = report::path(picture, scene, "in the end", Pen::Solid, line);
+        }
         let told = self.told(question, answer);
-        let picture = picture
-            .ends(scene.from(), scene.to())
-            .caption(told.title())
-            .caption(question::words(happened));
-        draw(&picture, svg, png)
+        let picture = picture.ends(scene.from(), scene.to());
+        draw(&picture.caption(told.title()), svg, png)
     }
+}
+
+/// What turned one grid into another of its size.
+fn between(before: &Grid, now: &Grid) -> Vec<GridChange> {
+    let cells = |differs: &dyn Fn(Cell) -> bool| -> Vec<Cell> {
+        now.layout().cells().filter(|&cell| differs(cell)).collect()
+    };
+    let blocked = cells(&|c| before.is_free(c) && !now.is_free(c));
+    let freed = cells(&|c| !before.is_free(c) && now.is_free(c));
+    let dearer = cells(&|c| before.is_free(c) && now.is_free(c) && before.cost(c) != now.cost(c));
+    let costs: BTreeSet<u8> = dearer.iter().map(|&c| now.cost(c)).collect();
+    let of_cost = |cost| {
+        let cells = dearer.iter().copied().filter(|&c| now.cost(c) == cost);
+        GridChange::CostChanged(cells.collect(), cost)
+    };
+    let mut changes = vec![GridChange::Blocked(blocked), GridChange::Freed(freed)];
+    changes.extend(costs.into_iter().map(of_cost));
+    changes
 }
 
 fn header(told: &Told<'_>) -> Result<(), Failure> {

@@ -235,10 +235,10 @@ pub(crate) fn ground(scene: &Scene) -> Picture {
     picture
 }
 
-/// A path through the centres of cells, and what the scene's robot sweeps on it.
+/// A path through the centres of cells, and what the scene's robot sweeps on it if it is an answer.
 pub(crate) fn path(picture: Picture, scene: &Scene, name: &str, pen: Pen, line: &Line) -> Picture {
     let centres: Vec<_> = line.iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
-    if scene.radius() > 0.0 {
+    if scene.radius() > 0.0 && pen == Pen::Solid {
         return picture
             .swath(&centres, scene.radius())
             .line(name, pen, &centres);

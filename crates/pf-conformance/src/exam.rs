@@ -191,10 +191,12 @@ impl<'a, S: Suite> Exam<'a, S> {
 
     fn story(&mut self, make: &dyn Fn() -> Box<dyn Replanner<S::Problem>>, plot: Plot, seed: u64) {
         let suite = self.suite;
-        let story = suite.story(&mut seeded(seed), plot, self.options);
+        let rng = &mut seeded(seed);
+        let story = suite.story(rng, plot, self.options);
+        let stranger = suite.random(rng, self.options);
         let truth = |problem: &S::Problem| suite.truth(problem);
         let watch = std::mem::take(&mut self.watch);
-        let stage = Stage::of(make, &watch, &story, &truth);
+        let stage = Stage::of(make, &watch, &story, &truth, stranger);
         let name = format!("{}, seed {seed}", story.name);
         let first = &story.worlds()[0];
         if let Some(stage) = &stage {

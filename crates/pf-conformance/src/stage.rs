@@ -19,6 +19,8 @@ pub(crate) struct Stage<'a, P: Problem> {
     claims: Claims,
     story: &'a Story<P>,
     truth: &'a dyn Fn(&P) -> Truth<P::Cost>,
+    /// A problem that has nothing to do with the story.
+    stranger: P,
     /// About each of the story's worlds.
     truths: Vec<Truth<P::Cost>>,
     /// The answer to the first world, then one a batch; `None` where it declined.
@@ -32,6 +34,7 @@ impl<'a, P: Problem> Stage<'a, P> {
         watch: &'a Watch,
         story: &'a Story<P>,
         truth: &'a dyn Fn(&P) -> Truth<P::Cost>,
+        stranger: P,
     ) -> Option<Self> {
         let mut stage = Self {
             make,
@@ -39,6 +42,7 @@ impl<'a, P: Problem> Stage<'a, P> {
             claims: make().claims(),
             story,
             truth,
+            stranger,
             truths: story.worlds().iter().map(truth).collect(),
             walk: vec![],
         };
@@ -287,6 +291,13 @@ pub(crate) fn settle_harmless<P: Problem>(stage: &Stage<'_, P>) -> Finding {
     let run = stage.plan(&mut live, &problem);
     stage.check(0, run.as_ref(), "settled before")?;
     for (i, batch) in (1..).zip(stage.story.batches()) {
+        // The world that comes next is the easiest to take for this one.
+        let other = [&worlds[(i + 1) % worlds.len()], &stage.stranger];
+        if let Some(other) = other.get(i % 3)
+            && let Some(run) = stage.settle(&mut live, other, &full)
+        {
+            no_work(&run).map_err(|how| format!("settling on another problem, {how}"))?;
+        }
         // Not at all on a budget of nothing, then at leisure; or either alone; or twice.
         if i % 4 >= 2
             && let Some(run) = stage.settle(&mut live, &problem, &Setting::iterations(0))
@@ -295,9 +306,6 @@ pub(crate) fn settle_harmless<P: Problem>(stage: &Stage<'_, P>) -> Finding {
         }
         for _ in 0..[1, 2, 1, 0][i % 4] {
             let _ = stage.settle(&mut live, &problem, &full);
-        }
-        if i % 2 == 0 {
-            let _ = stage.settle(&mut live, &worlds[(i + 1) % worlds.len()], &full);
         }
         let run = stage.replan(&mut live, &mut problem, batch);
         stage.check(i, run.as_ref(), "having settled before")?;

@@ -39,32 +39,7 @@ pub fn parse_movingai(name: &str, bytes: &[u8]) -> Result<Grid, FileError> {
         at: 0,
         line: 0,
     };
-    let header = |found: Option<&str>, line, expected: &str| {
-        source.error(Place::Column(line, 1), shown(found), expected)
-    };
-
-    let kind = lines.next();
-    if !matches!(kind.map(words), Some(["type", "octile" | "tile"])) {
-        return Err(header(kind, 1, "\"type octile\""));
-    }
-    let mut size = [0; 2];
-    for (k, key) in ["height", "width"].into_iter().enumerate() {
-        let found = lines.next();
-        size[k] = match found.map(words) {
-            Some([word, number]) if word == key => number.parse::<u64>().ok(),
-            _ => None,
-        }
-        .ok_or_else(|| header(found, [2, 3][k], &format!("\"{key}\" and a number")))?;
-    }
-    let [height, width] = size;
-    let (width, height) = Grid::check_size(width, height).map_err(|_| {
-        let found = format!("a map of {width} x {height} cells");
-        source.error(Place::Line(2), found, "1 to 268435456 (2^28) cells")
-    })?;
-    let found = lines.next();
-    if found.map(words) != Some(["map", ""]) {
-        return Err(header(found, 4, "\"map\""));
-    }
+    let (width, height) = header(source, &mut lines)?;
 
     // Every row is looked at before memory for the grid is taken: a header alone costs nothing.
     let mut rows: Vec<u32> = Vec::new();
@@ -120,6 +95,37 @@ pub fn write_movingai(path: &Path, grid: &Grid) -> Result<(), FileError> {
         }
         Ok(())
     })
+}
+
+/// Reads the header's four lines: width and height.
+fn header(source: Source<'_>, lines: &mut Lines<'_>) -> Result<(u32, u32), FileError> {
+    let wrong = |found: Option<&str>, line, expected: &str| {
+        source.error(Place::Column(line, 1), shown(found), expected)
+    };
+
+    let kind = lines.next();
+    if !matches!(kind.map(words), Some(["type", "octile" | "tile"])) {
+        return Err(wrong(kind, 1, "\"type octile\""));
+    }
+    let mut size = [0; 2];
+    for (k, key) in ["height", "width"].into_iter().enumerate() {
+        let found = lines.next();
+        size[k] = match found.map(words) {
+            Some([word, number]) if word == key => number.parse::<u64>().ok(),
+            _ => None,
+        }
+        .ok_or_else(|| wrong(found, [2, 3][k], &format!("\"{key}\" and a number")))?;
+    }
+    let [height, width] = size;
+    let (width, height) = Grid::check_size(width, height).map_err(|_| {
+        let found = format!("a map of {width} x {height} cells");
+        source.error(Place::Line(2), found, "1 to 268435456 (2^28) cells")
+    })?;
+    let found = lines.next();
+    if found.map(words) != Some(["map", ""]) {
+        return Err(wrong(found, 4, "\"map\""));
+    }
+    Ok((width, height))
 }
 
 /// What is wrong with a row, if anything: column, what was found, what was expected.

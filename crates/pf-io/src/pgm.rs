@@ -20,14 +20,7 @@ pub(crate) fn is_pgm(bytes: &[u8]) -> bool {
 /// Reads a PGM file of any maximum up to 65535; samples are scaled to 0..=255.
 pub(crate) fn costs(source: Source<'_>, cost: &dyn Fn(Pixel) -> u8) -> Result<Costs, FileError> {
     let mut words = Words { source, at: 2 };
-    let width = words.number(format_args!("the width"))?;
-    let height = words.number(format_args!("the height"))?;
-    let (width, height) = check_size(source, words.place(), width, height)?;
-    let most = words.number(format_args!("the largest gray value"))?;
-    if !(1..=65535).contains(&most) {
-        let found = format!("the largest gray value {most}");
-        return Err(source.error(words.place(), found, "1 to 65535"));
-    }
+    let (width, height, most) = words.header()?;
     // What follows must be able to hold the samples: then nothing is larger than the file.
     let count = width as usize * height as usize;
     let raw = source.bytes.starts_with(b"P5");
@@ -89,6 +82,19 @@ struct Words<'a> {
 }
 
 impl Words<'_> {
+    /// Width, height and the largest gray value.
+    fn header(&mut self) -> Result<(u32, u32, u64), FileError> {
+        let width = self.number(format_args!("the width"))?;
+        let height = self.number(format_args!("the height"))?;
+        let (width, height) = check_size(self.source, self.place(), width, height)?;
+        let most = self.number(format_args!("the largest gray value"))?;
+        if !(1..=65535).contains(&most) {
+            let found = format!("the largest gray value {most}");
+            return Err(self.source.error(self.place(), found, "1 to 65535"));
+        }
+        Ok((width, height, most))
+    }
+
     fn number(&mut self, what: fmt::Arguments<'_>) -> Result<u64, FileError> {
         let bytes = self.source.bytes;
         let mut comment = false;

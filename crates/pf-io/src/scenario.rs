@@ -76,6 +76,26 @@ pub struct Event {
     pub changes: Vec<GridChange>,
 }
 
+const TOP_KEYS: [&str; 13] = [
+    "title",
+    "source",
+    "provenance",
+    "time",
+    "unknown",
+    "map",
+    "moves",
+    "radius",
+    "start",
+    "goal",
+    "expected",
+    "case",
+    "event",
+];
+const CASE_KEYS: [&str; 12] = [
+    "name", "follows", "map", "moves", "radius", "start", "goal", "blocked", "freed", "cost",
+    "expected", "event",
+];
+
 /// Reads a scenario file and the maps it names.
 ///
 /// # Errors
@@ -103,21 +123,7 @@ pub fn parse_scenario(
         text: source.text()?,
     };
     let root = file.parse()?;
-    let top = Table::root(file, &root).with_keys(&[
-        "title",
-        "source",
-        "provenance",
-        "time",
-        "unknown",
-        "map",
-        "moves",
-        "radius",
-        "start",
-        "goal",
-        "expected",
-        "case",
-        "event",
-    ])?;
+    let top = Table::root(file, &root).with_keys(&TOP_KEYS)?;
     let own = |key| Ok(top.string(key)?.map(str::to_owned));
     let mut scenario = Scenario {
         title: own("title")?,
@@ -151,10 +157,7 @@ pub fn parse_scenario(
         return Err(odd.error("events and lengths inside a [[case]], where there are cases"));
     }
     for table in cases {
-        let table = table.with_keys(&[
-            "name", "follows", "map", "moves", "radius", "start", "goal", "blocked", "freed",
-            "cost", "expected", "event",
-        ])?;
+        let table = table.with_keys(&CASE_KEYS)?;
         let case = case(&top, table, &scenario.cases, &mut maps)?;
         scenario.cases.push(case);
     }

@@ -149,6 +149,10 @@ fn optima_are_compared_at_the_precision_of_their_file() {
     assert!(agrees(1, 6.0 + 2f64.sqrt()) && !agrees(1, 7.414_23));
     assert!(agrees(2, 1234.5651) && !agrees(2, 1234.58));
     assert!(agrees(3, 450.300_4) && !agrees(3, 450.31));
+    // %.8f, summed with a root of 2 of eight decimals.
+    let scen = file(&["141.42135600", "7.00000000"]);
+    assert!(scen.agrees(&scen.rows[0], 100.0 * 2f64.sqrt()));
+    assert!(!scen.agrees(&scen.rows[0], 141.421_37) && !scen.agrees(&scen.rows[1], 7.000_001));
     // %.2f: two decimals.
     let scen = file(&["450.32", "73.24", "1000.00"]);
     assert!(scen.agrees(&scen.rows[1], 73.2446) && !scen.agrees(&scen.rows[1], 73.25));
@@ -259,6 +263,26 @@ fn pngs_of_every_kind_are_read() {
         let grid = parse_image("a.png", &bytes).unwrap();
         assert_eq!(grid.to_string(), "#..#\n", "{kind:?} {bits:?}");
     }
+}
+
+#[test]
+fn interlaced_pngs_are_read() {
+    // 9 x 6 pixels of one bit, in the seven passes of Adam7.
+    let file = "\
+        89504e470d0a1a0a0000000d49484452000000090000000601000000014ebbb9fe00000022494441\
+        5478da6338c0c0c0a0c07080a1816102c3028602860f0cab18185a19803400588406d0557e51ae00\
+        00000049454e44ae426082";
+    let digits = file
+        .as_bytes()
+        .chunks(2)
+        .map(|pair| str::from_utf8(pair).unwrap());
+    let bytes: Vec<u8> = digits.map(|d| u8::from_str_radix(d, 16).unwrap()).collect();
+    let drawing = "...##..#. .#.#.#.## .##.#...# .####.#.# #...#.#.. ....#####";
+    let expected = Grid::parse(drawing).unwrap();
+    assert_eq!(
+        parse_image("a.png", &bytes).unwrap().to_string(),
+        expected.to_string()
+    );
 }
 
 #[test]

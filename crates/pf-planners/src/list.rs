@@ -29,3 +29,51 @@ pub fn find(key: &str) -> Result<&'static dyn AnyEntry, UnknownPlanner> {
     let found = all().find(|entry| entry.key() == key);
     found.ok_or_else(|| UnknownPlanner::new(key, all().map(AnyEntry::key)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{Order, Refusal};
+
+    #[test]
+    fn names_are_unique_and_every_default_works() {
+        for entry in all() {
+            assert_eq!(all().filter(|other| other.key() == entry.key()).count(), 1);
+            let runner = entry.runner(&[]).unwrap();
+            assert_eq!(runner.name(), entry.name());
+            assert_eq!(runner.claims(), entry.claims());
+            assert!(
+                !entry.claims().incremental || entry.replans(),
+                "{}",
+                entry.key()
+            );
+        }
+    }
+
+    #[test]
+    fn near_misses_are_guessed_and_far_ones_are_not() {
+        let near = |asked| find(asked).unwrap_err().near();
+        assert_eq!(near("dstar-lite"), Some("d-star-lite"));
+        assert_eq!(near("A-Star"), Some("astar"));
+        assert_eq!(near("quux"), None);
+    }
+
+    #[test]
+    fn parameters_are_set_by_name() {
+        let set = |key: &str, value: &str| {
+            let entry = find("astar").unwrap();
+            entry
+                .runner(&[(key.to_owned(), value.to_owned())])
+                .map(|_| ())
+        };
+        assert!(set("nearest", "true").is_ok());
+        assert!(set("nearest", "7").is_err() && set("far", "true").is_err());
+    }
+
+    #[test]
+    fn replanning_needs_a_plan() {
+        let mut runner = find("d-star-lite").unwrap().runner(&[]).unwrap();
+        let refusal = runner.replan(&[], Order::seeded(0)).unwrap_err();
+        assert_eq!(refusal, Refusal::NothingPlanned);
+    }
+}

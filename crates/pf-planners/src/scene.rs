@@ -170,3 +170,45 @@ pub trait FromScene: Problem {
     /// A cost as numbers, one per objective.
     fn costs(cost: &Self::Cost) -> Vec<f64>;
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn hall() -> Scene {
+        let grid = Grid::parse("........ ........ ........ ........ ........").unwrap();
+        Scene::new(grid, Cell::new(0, 0), Cell::new(7, 4)).unwrap()
+    }
+
+    #[test]
+    fn a_robot_with_a_size_follows_changes() {
+        let mut scene = hall().with_radius(1.2).unwrap();
+        let (a, b) = (Cell::new(3, 2), Cell::new(5, 1));
+        for changes in [
+            vec![GridChange::Blocked(vec![a, b])],
+            vec![GridChange::Freed(vec![a]), GridChange::StartMoved(b)],
+            vec![GridChange::CostChanged(vec![a], 7)],
+        ] {
+            scene.change(&changes).unwrap();
+            let fresh = scene.clone().with_radius(1.2).unwrap();
+            assert_eq!(scene.inflated(), fresh.inflated());
+            assert_eq!(scene.grid_problem().start(), scene.from());
+        }
+        assert!(!scene.inflated().is_free(Cell::new(6, 1)));
+        assert!(scene.map().is_free(Cell::new(6, 1)));
+    }
+
+    #[test]
+    fn nonsense_changes_nothing() {
+        for radius in [0.0, 2.0] {
+            let mut scene = hall().with_radius(radius).unwrap();
+            let inside = GridChange::Blocked(vec![Cell::new(3, 3)]);
+            let outside = GridChange::GoalMoved(Cell::new(8, 0));
+            assert!(scene.change(&[inside, outside]).is_err());
+            assert_eq!(scene.map(), hall().map());
+            assert_eq!(scene.inflated(), hall().inflated());
+        }
+        assert!(hall().with_radius(f64::NAN).is_err());
+        assert!(hall().with_radius(-1.0).is_err());
+    }
+}

@@ -1,9 +1,8 @@
 //! Colours after Okabe and Ito, "Color Universal Design" (2008).
 
 /// Paths, in the order they are added.
-pub(crate) const PATHS: [&str; 6] = [
-    "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#000000",
-];
+pub(crate) const PATHS: [&str; 5] = ["#d55e00", "#009e73", "#cc79a7", "#e69f00", "#000000"];
+pub(crate) const DASHED: &str = "#0072b2";
 pub(crate) const START: &str = "#009e73";
 pub(crate) const GOAL: &str = "#0072b2";
 pub(crate) const NEW_BLOCKED: &str = "#cc79a7";

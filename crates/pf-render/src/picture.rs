@@ -169,8 +169,8 @@ impl Picture {
             };
             for cell in cells {
                 raster.set(cell.x, cell.y, shade);
-                seen[usize::from(shade) - 1] = true;
             }
+            seen[usize::from(shade) - 1] |= !cells.is_empty();
         }
         for (i, (fill, words)) in kinds.into_iter().enumerate() {
             if seen[i] {
@@ -181,7 +181,8 @@ impl Picture {
         self
     }
 
-    /// A path over cells, through their centres, under a name for the legend.
+    /// A path over cells, through their centres, under a name for the legend. Each solid path gets
+    /// the next colour; dashed ones share one.
     #[must_use]
     pub fn path(self, name: &str, line: Line, path: &[Cell]) -> Self {
         let points: Vec<_> = path.iter().map(|&cell| centre(cell)).collect();
@@ -191,8 +192,11 @@ impl Picture {
     /// A path through points in the map's units, under a name for the legend.
     #[must_use]
     pub fn line(mut self, name: &str, line: Line, points: &[[f64; 2]]) -> Self {
-        let colour = palette::PATHS[self.paths % palette::PATHS.len()];
-        self.paths += 1;
+        let colour = match line {
+            Line::Solid => self.next_colour(),
+            Line::Dashed => palette::DASHED,
+        };
+        self.paths += usize::from(line == Line::Solid);
         self.layers.push(Layer::Line {
             points: without_straight_middles(points),
             colour,
@@ -201,12 +205,12 @@ impl Picture {
         self.key(Key::Line(colour, line), name)
     }
 
-    /// What a robot of this radius, in the map's units, sweeps on the next path.
+    /// What a robot of this radius, in the map's units, sweeps on the next solid path.
     #[must_use]
     pub fn swath(mut self, points: &[[f64; 2]], radius: f64) -> Self {
         self.layers.push(Layer::Swath {
             points: without_straight_middles(points),
-            colour: palette::PATHS[self.paths % palette::PATHS.len()],
+            colour: self.next_colour(),
             radius,
         });
         self
@@ -245,6 +249,10 @@ impl Picture {
     /// [`NoPicture`] if it cannot be drawn.
     pub fn png(&self) -> Result<Vec<u8>, NoPicture> {
         png::draw(&self.svg())
+    }
+
+    fn next_colour(&self) -> &'static str {
+        palette::PATHS[self.paths % palette::PATHS.len()]
     }
 
     fn raster(&self) -> Raster {

@@ -16,8 +16,6 @@ const NARROWEST: f64 = 560.0;
 const LINE_HEIGHT: f64 = 20.0;
 const TITLE: f64 = 15.0;
 const FONT: f64 = 13.0;
-/// Mean width of a letter, as a part of the font's size, on the generous side.
-const LETTER: f64 = 0.6;
 
 /// Where things lie on the page, in pixels.
 struct Page {
@@ -261,7 +259,7 @@ fn legend(out: &mut String, picture: &Picture, page: &Page, top: f64) -> f64 {
     let right = page.width - MARGIN - bar.max(70.0);
     let (mut x, mut y) = (MARGIN, top);
     for (key, words) in &picture.legend {
-        let width = 28.0 + text_width(words, FONT) + 16.0;
+        let width = 28.0 + text_width(words, FONT);
         if x > MARGIN && x + width > right {
             x = MARGIN;
             y += LINE_HEIGHT;
@@ -274,7 +272,7 @@ fn legend(out: &mut String, picture: &Picture, page: &Page, top: f64) -> f64 {
             y + 12.0,
             escaped(words)
         );
-        x += width;
+        x += width + 14.0;
     }
     y + LINE_HEIGHT + 8.0
 }
@@ -330,9 +328,16 @@ fn paragraph(out: &mut String, page: &Page, top: f64, size: f64, text: &str) -> 
     y
 }
 
-#[expect(clippy::cast_precision_loss, reason = "a line of text")]
+/// About how wide a text is, on the generous side: three widths of letters are enough to place it.
 fn text_width(text: &str, size: f64) -> f64 {
-    text.chars().count() as f64 * size * LETTER
+    let width = |letter| match letter {
+        ' ' | 'i' | 'j' | 'l' | 'f' | 't' | 'r' | 'I' | '.' | ',' | ':' | ';' | '\'' | '|' => 0.4,
+        'm' | 'w' | 'M' | 'W' | '%' | '@' => 0.95,
+        letter if letter.is_ascii() && !letter.is_ascii_uppercase() => 0.62,
+        letter if letter.is_ascii() => 0.72,
+        _ => 1.0,
+    };
+    size * text.chars().map(width).sum::<f64>()
 }
 
 /// Two decimals are finer than any pixel.

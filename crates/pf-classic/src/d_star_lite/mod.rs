@@ -286,9 +286,9 @@ impl Replanner<GridProblem> for DStarLite {
         Ok(self.afresh(problem, cx))
     }
 
-    /// Turns the open list of a plan into that of repairs.
-    fn settle(&mut self, problem: &GridProblem, _: &mut Context<'_, GridProblem>) {
-        if self.known == Some(problem.stamp()) {
+    /// Turns the open list of a plan into that of repairs: one iteration.
+    fn settle(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
+        if self.known == Some(problem.stamp()) && cx.proceed() {
             field!(&mut self.width, field => field.prepare(problem));
         }
     }

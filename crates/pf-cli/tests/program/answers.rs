@@ -185,18 +185,25 @@ fn a_budget_that_runs_out_ends_with_5() {
 fn moves_and_radius_change_the_answer() {
     let folder = map(HALL);
     let file = folder.name("m.map");
-    let cost = |more: &[&str]| {
-        let args = ["plan", &file, "--from", "0,0", "--to", "9,0", "--json"];
-        pf(&[&args, more].concat()).ends(0).json()[0]["cost"]
-            .as_f64()
-            .unwrap()
+    let cost = |moves: &str| {
+        let args = [
+            "plan", &file, "--from", "4,1", "--to", "6,1", "--json", "--moves", moves,
+        ];
+        let run = pf(&args).ends(0);
+        run.json()[0]["cost"].as_f64().unwrap()
     };
-    assert!((cost(&["--moves", "orthogonal"]) - 13.0).abs() < 1e-9);
-    assert!(cost(&["--moves", "always"]) < cost(&["--moves", "no-corner-cutting"]));
-    let args = [
-        "plan", &file, "--from", "0,0", "--to", "9,0", "--radius", "2",
-    ];
-    pf(&args).ends(4);
+    let rules = ["orthogonal", "always", "one-corner", "no-corner-cutting"];
+    let around_the_corners = 8f64.sqrt();
+    for (rule, expected) in
+        rules
+            .into_iter()
+            .zip([4.0, around_the_corners, around_the_corners, 4.0])
+    {
+        assert!((cost(rule) - expected).abs() < 1e-9, "{rule}");
+    }
+    let door = ["plan", &file, "--from", "0,2", "--to", "9,2", "--radius"];
+    pf(&[&door[..], &["0.5"]].concat()).ends(0);
+    pf(&[&door[..], &["0.6"]].concat()).ends(4);
 }
 
 #[test]

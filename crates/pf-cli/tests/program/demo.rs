@@ -8,7 +8,14 @@ fn it_compares_all_planners_and_draws() {
     let out = folder.name("pictures");
     let run = pf(&["demo", "--out", &out]).ends(0);
     for words in [
-        "Dijkstra", "A*", "D* Lite", "found", "length", "% over", "time", &out,
+        "Dijkstra",
+        "A*",
+        "D* Lite",
+        "found",
+        "length",
+        "% over shortest",
+        "time",
+        &out,
     ] {
         assert!(run.out.contains(words), "no {words:?} in {}", run.out);
     }

@@ -32,7 +32,7 @@ blocked = [[5, 5]]
 
 [[event]]
 at = 5
-freed = [[5, 3]]
+freed = [[5, 3, 1, 3]]
 cost = { value = 9, cells = [[7, 0, 1, 6]] }
 ";
 

@@ -21,7 +21,8 @@ fn check(rows: &[&str], more: &[&str], code: i32, expected: [u64; 3]) -> crate::
     let run = pf(&[&args, more].concat()).ends(code);
     let objects = run.json();
     assert_eq!(objects.len(), 1);
-    let counts = ["rows", "mismatches", "unsolved"].map(|key| objects[0][key].as_u64().expect(key));
+    let counts =
+        ["rows", "mismatches", "unsolved"].map(|key| objects[0][key].as_u64().expect("a count"));
     assert_eq!(counts, expected, "{}", run.err);
     assert!(objects[0]["total_us"].is_number() && objects[0]["median_us"].is_number());
     run

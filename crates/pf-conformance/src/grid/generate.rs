@@ -175,25 +175,28 @@ pub(super) fn small_batch(rng: &mut PlanRng, problem: &GridProblem) -> Vec<GridC
     }]
 }
 
-/// Start or goal blocked, freed, moved onto a blocked cell or onto each other.
+/// Start or goal blocked, freed, moved onto a blocked cell or onto each other; and often something
+/// else besides, which must not be forgotten while there is no way anyhow.
 pub(super) fn ends_batch(rng: &mut PlanRng, problem: &GridProblem) -> Vec<GridChange> {
     use GridChange::{Blocked, Freed, GoalMoved, StartMoved};
     let (start, goal) = (problem.start(), problem.goal());
     let end = *pick(rng, &[start, goal]);
     let anywhere = any_cell(rng, problem.grid().layout());
-    let moved = if rng.random_bool(0.5) {
-        StartMoved
-    } else {
-        GoalMoved
-    };
-    match rng.random_range(0..8) {
+    let moved = *pick(rng, &[StartMoved as fn(Cell) -> _, GoalMoved]);
+    let mut batch = match rng.random_range(0..8) {
         0..2 => vec![Blocked(vec![end])],
         2..4 => vec![Freed(vec![start, goal])],
         4 => vec![Blocked(vec![end]), Freed(vec![end])],
         5 => vec![Blocked(vec![anywhere]), moved(anywhere)],
         6 => vec![moved(end)],
         _ => vec![Freed(vec![anywhere]), moved(anywhere)],
+    };
+    match rng.random_range(0..4) {
+        0 => batch.push(Blocked(some_cells(rng, problem, 5))),
+        1 => batch.push(Freed(some_cells(rng, problem, 5))),
+        _ => {}
     }
+    batch
 }
 
 fn elsewhere(rng: &mut PlanRng, problem: &GridProblem, from: Cell) -> Cell {
