@@ -167,7 +167,6 @@ impl Tangent {
         // With u the heading and m its right-hand normal, the contacts lie at out * m and into * m,
         // and the centres are this far apart along m.
         let offset = out.sign() * from.radius - into.sign() * to.radius;
-        #[expect(clippy::float_cmp, reason = "equal radii, or points")]
         if offset == 0.0 {
             // The contacts lie square to the way between the centres: most pairs are out of the
             // question at once, without a root.
