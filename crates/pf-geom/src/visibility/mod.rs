@@ -12,7 +12,7 @@ mod disc;
 mod route;
 
 use crate::{Point, Segment, Vector, WorldProblem, cross};
-use disc::{Disc, Room, SAME_ANGLE, Tangent, Turn, discs};
+use disc::{Disc, Group, Room, SAME_ANGLE, Tangent, Turn, discs};
 use pf_core::{Context, Stamp};
 pub use route::{Bend, Route};
 use std::{cmp::Ordering, collections::BinaryHeap};
@@ -23,6 +23,8 @@ pub struct TangentGraph {
     /// The world and the robot's radius.
     of: Option<(Stamp, f64)>,
     discs: Vec<Disc>,
+    /// The discs by obstacle.
+    groups: Vec<Group>,
     /// By disc; unknown until asked for.
     rooms: Vec<Option<Room>>,
     /// By node: disc and turn. Unknown until the node is first expanded.
@@ -180,8 +182,12 @@ impl TangentGraph {
         if self.of != of {
             self.of = of;
             self.discs.clear();
+            self.groups.clear();
             for (id, shape) in problem.world().shapes() {
+                let first = self.discs.len();
                 discs(id, shape, problem.radius(), &mut self.discs);
+                let range = first..self.discs.len();
+                self.groups.extend(Group::of(&self.discs, range));
             }
             let nodes = 2 * self.discs.len();
             self.rooms.clear();
@@ -204,7 +210,7 @@ impl TangentGraph {
         if self.start != Some(start) {
             self.start = Some(start);
             let from = Disc::point(start);
-            self.start_edges = tangents(&self.discs, &from, Turn::Left).collect();
+            self.start_edges = tangents(&self.discs, &self.groups, &from, Turn::Left).collect();
         }
     }
 
@@ -289,7 +295,7 @@ impl TangentGraph {
         self.touched.push(label.node);
         let (disc, turn) = (&self.discs[node / 2], turn_of(label.node));
         if self.edges[node].is_none() {
-            self.edges[node] = Some(tangents(&self.discs, disc, turn).collect());
+            self.edges[node] = Some(tangents(&self.discs, &self.groups, disc, turn).collect());
         }
         if let Some(tangent) = Tangent::between(disc, turn, target, Turn::Left)
             && let Some(arc) = self.round(label.node, label.arriving, tangent.leaving)
@@ -351,12 +357,22 @@ fn turn_of(node: u32) -> Turn {
 }
 
 /// All tangents that leave a disc in one direction round it.
-fn tangents<'a>(discs: &'a [Disc], from: &'a Disc, out: Turn) -> impl Iterator<Item = Edge> + 'a {
-    (0..).zip(discs).flat_map(move |(k, to)| {
+fn tangents<'a>(
+    discs: &'a [Disc],
+    groups: &'a [Group],
+    from: &'a Disc,
+    out: Turn,
+) -> impl Iterator<Item = Edge> + 'a {
+    let ahead = groups
+        .iter()
+        .filter(move |group| group.is_ahead_of(from, out));
+    let there = ahead.flat_map(|group| group.discs.clone());
+    there.flat_map(move |k| {
         Turn::BOTH.into_iter().filter_map(move |into| {
-            let tangent = Tangent::between(from, out, to, into)?;
+            let tangent = Tangent::between(from, out, &discs[k], into)?;
+            let to = u32::try_from(2 * k + usize::from(into == Turn::Right)).ok()?;
             Some(Edge {
-                to: 2 * k + u32::from(into == Turn::Right),
+                to,
                 free: None,
                 tangent,
             })
