@@ -74,6 +74,15 @@ impl Segment {
     /// Whether each segment has its ends on both sides of the other, or on it.
     #[must_use]
     pub fn crosses(&self, other: &Self) -> bool {
+        // Rounding can put the ends of segments on one line on both sides of each other, however
+        // far apart they lie along it.
+        let apart = |k: usize| {
+            self.a[k].max(self.b[k]) < other.a[k].min(other.b[k])
+                || other.a[k].max(other.b[k]) < self.a[k].min(self.b[k])
+        };
+        if apart(0) || apart(1) {
+            return false;
+        }
         let side = |s: &Self, p: Point| cross(s.b - s.a, p - s.a);
         let (c, d) = (side(self, other.a), side(self, other.b));
         let (a, b) = (side(other, self.a), side(other, self.b));

@@ -229,17 +229,20 @@ impl Graph {
         let (from, to) = ((a.centre, a.radius), (b.centre, b.radius));
         let apart = to.0 - from.0;
         let (distance, heading) = (apart.norm(), apart.y.atan2(apart.x));
-        if distance <= 0.0 {
+        let both_points = from.1 <= 0.0 && to.1 <= 0.0;
+        // Two discs about one point have no tangents, two points in one place have this one.
+        if distance <= 0.0 && !both_points {
             return;
         }
-        let both_points = from.1 <= 0.0 && to.1 <= 0.0;
         let one_point = from.1 <= 0.0 || to.1 <= 0.0;
         for (offset, across) in [(from.1 - to.1, 0.0), (from.1 + to.1, TAU / 2.0)] {
             // A point's tangents pass it on both sides.
             if across > 0.0 && one_point || offset.abs() > distance + TOUCH {
                 continue;
             }
-            let lean = (offset / distance).clamp(-1.0, 1.0).acos();
+            let lean = (offset / distance.max(f64::MIN_POSITIVE))
+                .clamp(-1.0, 1.0)
+                .acos();
             for side in [lean, -lean] {
                 let angles = [heading + side, heading + side + across];
                 let p = on_circle(from.0, from.1, angles[0]);
