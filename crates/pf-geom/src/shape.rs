@@ -119,6 +119,12 @@ impl Rectangle {
             .unwrap_or_else(|| nalgebra::center(&self.min, &self.max))
     }
 
+    /// Where its potential is highest, if that was said.
+    #[must_use]
+    pub fn own_peak(&self) -> Option<Point> {
+        self.peak
+    }
+
     /// Its corners, counterclockwise from the lower left.
     #[must_use]
     pub fn corners(&self) -> [Point; 4] {
@@ -437,10 +443,21 @@ fn check_simple(corners: &[Point]) -> Result<(), InvalidProblem> {
         if cross(u, v) == 0.0 && u.dot(&v) < 0.0 {
             return refuse(i, (i + 1) % n);
         }
-        for j in i + 2..n {
-            let neighbours = (j + 1) % n == i;
-            if !neighbours && this.distance_to_segment(&side(j)) <= 0.0 {
-                return refuse(i, j);
+    }
+    // A sweep from left to right: only sides that share some x are looked at in pairs.
+    let mut sides: Vec<_> = (0..n)
+        .map(|k| {
+            let Segment { a, b } = side(k);
+            (k, a.inf(&b), a.sup(&b))
+        })
+        .collect();
+    sides.sort_by(|(_, a, _), (_, b, _)| a.x.total_cmp(&b.x));
+    for (at, &(i, low, high)) in sides.iter().enumerate() {
+        let near = sides[at + 1..].iter().take_while(|(_, l, _)| l.x <= high.x);
+        for &(j, _, _) in near.filter(|(_, l, h)| l.y <= high.y && h.y >= low.y) {
+            let neighbours = (i + 1) % n == j || (j + 1) % n == i;
+            if !neighbours && side(i).distance_to_segment(&side(j)) <= 0.0 {
+                return refuse(i.min(j), i.max(j));
             }
         }
     }
