@@ -88,6 +88,15 @@ impl Rectangle {
         })
     }
 
+    /// The rectangle between two corners known to be good ones.
+    pub(crate) const fn spanning(min: Point, max: Point) -> Self {
+        Self {
+            min,
+            max,
+            peak: None,
+        }
+    }
+
     /// The same, with the point where its potential is highest, for planners that have one.
     ///
     /// # Errors
@@ -175,6 +184,20 @@ impl Polygon {
             corners,
             convex,
         })
+    }
+
+    /// A polygon that need not be simple: inside is what its border goes round an odd number of
+    /// times.
+    pub(crate) const fn even_odd(corners: Vec<Point>) -> Self {
+        Self {
+            corners,
+            convex: false,
+        }
+    }
+
+    /// Its corners, to be used for another.
+    pub(crate) fn into_corners(self) -> Vec<Point> {
+        self.corners
     }
 
     /// Its corners, counterclockwise.
@@ -415,12 +438,15 @@ fn first_crossing(segment: &Segment, side: &Segment) -> Option<f64> {
     let (along, edge) = (segment.b - segment.a, side.b - side.a);
     let across = cross(along, edge);
     let apart = side.a - segment.a;
-    if across == 0.0 {
+    if across.abs() <= 1e-12 * along.norm() * edge.norm() {
         // Along the same line the nearer corner is met first, and it belongs to another side, too.
         return None;
     }
     let (t, s) = (cross(apart, edge) / across, cross(apart, along) / across);
-    ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&s)).then_some(t)
+    // A little more than the side, lest rounding let a ray slip between two sides at their corner,
+    // or begin on a side and miss it.
+    let within = |x: f64| (-1e-10..=1.0 + 1e-10).contains(&x);
+    (within(t) && within(s)).then_some(t.clamp(0.0, 1.0))
 }
 
 fn twice_area(corners: &[Point]) -> f64 {
