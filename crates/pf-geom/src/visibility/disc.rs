@@ -258,8 +258,18 @@ impl Room {
             }
         }
         let at = |angle: f64| disc.centre + Vector::new(angle.cos(), angle.sin()) * disc.radius;
+        let angle_of = |v: Vector| v.y.atan2(v.x);
+        // Beyond the cone of a corner the disc lies within its own obstacle.
+        let middle = disc.cone.map_or(0.0, |(from, to)| angle_of(from + to));
         if events.is_empty() {
-            return if free(at(0.0)) { Self::All } else { Self::None };
+            return if free(at(middle)) {
+                Self::All
+            } else {
+                Self::None
+            };
+        }
+        if let Some((from, to)) = disc.cone {
+            events.extend([angle_of(from), angle_of(to)]);
         }
         events.sort_by(f64::total_cmp);
         events.push(events[0] + TAU);

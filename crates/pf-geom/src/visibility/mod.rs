@@ -151,6 +151,15 @@ impl TangentGraph {
         Answer::Nothing
     }
 
+    /// Forgets which straight pieces are free, so that the next query takes as many iterations as
+    /// if it were the first.
+    pub fn forget(&mut self) {
+        let edges = self.edges.iter_mut().flatten().flatten();
+        for edge in edges.chain(&mut self.start_edges) {
+            edge.free = None;
+        }
+    }
+
     /// How many bends a path could have: corners and round obstacles.
     #[must_use]
     pub fn len(&self) -> usize {
