@@ -35,7 +35,7 @@ pub struct Rectangle {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     corners: Vec<Point>,
-    /// The direction of the side that begins at each corner.
+    /// The direction of the side that begins at each corner; only asked for if it is convex.
     along: Vec<Vector>,
     convex: bool,
 }
@@ -191,6 +191,7 @@ impl Polygon {
     pub(crate) const fn even_odd(corners: Vec<Point>) -> Self {
         Self {
             corners,
+            along: Vec::new(),
             convex: false,
         }
     }
