@@ -100,12 +100,11 @@ impl Rectangle {
     /// The same, with the point where its potential is highest, for planners that have one.
     ///
     /// # Errors
-    /// [`InvalidProblem`] if the peak does not lie strictly inside.
+    /// [`InvalidProblem`] if the peak lies outside; on the border it may lie.
     pub fn with_peak(mut self, peak: Point) -> Result<Self, InvalidProblem> {
-        let inside = (0..2).all(|k| self.min[k] < peak[k] && peak[k] < self.max[k]);
-        if !inside {
+        if !self.contains(peak) {
             let place = format!("({}, {})", peak.x, peak.y);
-            return Err(bad("the rectangle's peak", place, "a point inside it"));
+            return Err(bad("the rectangle's peak", place, "a point in it"));
         }
         self.peak = Some(peak);
         Ok(self)

@@ -305,7 +305,11 @@ impl<'a> Reader<'a> {
                 return Err(self.error(part, format!("no ring in {whose}"), "an outer ring"));
             }
             more => {
-                let found = format!("{} holes in {whose}", more.len() - 1);
+                let holes = match more.len() - 1 {
+                    1 => "a hole".to_owned(),
+                    n => format!("{n} holes"),
+                };
+                let found = format!("{holes} in {whose}");
                 let expected = "no holes: what a hole leaves free cannot be said by one shape";
                 return Err(self.error(part, found, expected));
             }
@@ -368,7 +372,7 @@ impl<'a> Reader<'a> {
                 Err(self.error(part, format!("the position [{x:?}, {y:?}]"), expected))
             }
             ref short => {
-                let found = format!("a position of {} numbers", short.len());
+                let found = format!("a position of {} number", short.len());
                 Err(self.error(part, found, "two: [x, y]"))
             }
         }
