@@ -77,6 +77,27 @@ impl VisibilityGraph {
         &self.graph
     }
 
+    fn answer(
+        &mut self,
+        problem: &WorldProblem,
+        cx: &mut Context<'_, WorldProblem>,
+    ) -> Report<WorldProblem> {
+        let answer = self.graph.shortest(problem, cx);
+        if cx.listening() {
+            for piece in self.graph.free_pieces() {
+                cx.points("free piece", || vec![piece.a, piece.b]);
+            }
+        }
+        match answer {
+            Answer::Route(route) => {
+                let path = self.flattened(problem, &route);
+                cx.answer(problem, path, Proof::Optimal)
+            }
+            Answer::Nothing => cx.report(Outcome::Infeasible),
+            Answer::Cut => cx.report(Outcome::Unknown { attempt: None }),
+        }
+    }
+
     /// The route as a polyline that keeps clear: where a piece outside an arc would touch
     /// something else, the pieces are made smaller.
     fn flattened(&self, problem: &WorldProblem, route: &Route) -> Vec<pf_geom::Point> {
@@ -105,20 +126,8 @@ impl Planner<WorldProblem> for VisibilityGraph {
         problem: &WorldProblem,
         cx: &mut Context<'_, WorldProblem>,
     ) -> Result<Report<WorldProblem>, Unsupported> {
-        let answer = self.graph.shortest(problem, cx);
-        if cx.listening() {
-            for piece in self.graph.free_pieces() {
-                cx.points("free piece", || vec![piece.a, piece.b]);
-            }
-        }
-        Ok(match answer {
-            Answer::Route(route) => {
-                let path = self.flattened(problem, &route);
-                cx.answer(problem, path, Proof::Optimal)
-            }
-            Answer::Nothing => cx.report(Outcome::Infeasible),
-            Answer::Cut => cx.report(Outcome::Unknown { attempt: None }),
-        })
+        self.graph.forget();
+        Ok(self.answer(problem, cx))
     }
 }
 
@@ -129,6 +138,6 @@ impl Replanner<WorldProblem> for VisibilityGraph {
         revision: &Revision<'_, WorldProblem>,
         cx: &mut Context<'_, WorldProblem>,
     ) -> Result<Report<WorldProblem>, Unsupported> {
-        self.plan(revision.problem(), cx)
+        Ok(self.answer(revision.problem(), cx))
     }
 }
