@@ -10,9 +10,10 @@ use crate::{
 };
 use comfy_table::{CellAlignment, Table, presets};
 use pf_core::{Budget, CancelToken};
+use pf_geom::Point;
 use pf_grid::{Cell, Grid, Moves};
-use pf_io::{FileError, Unknown, parse_movingai, parse_ros};
-use pf_planners::{Answer, AnyEntry, GridScene, Order, Robot, all};
+use pf_io::{FileError, Unknown, parse_movingai, parse_ros, parse_world};
+use pf_planners::{Answer, AnyEntry, GridScene, Order, Robot, Scene, WorldScene, all};
 use pf_render::Recorder;
 use std::{
     fs,
@@ -39,48 +40,63 @@ const REPETITIONS: usize = 3;
 /// A map that the program carries, and a question worth asking on it.
 struct Show {
     name: &'static str,
-    map: fn() -> Result<Grid, FileError>,
-    from: Cell,
-    to: Cell,
-    moves: Moves,
-    radius: f64,
+    scene: fn() -> Result<Scene, Failure>,
 }
 
 macro_rules! carried {
     ($path:literal) => {
-        include_bytes!(concat!("../../../maps/grids/", $path))
+        include_bytes!(concat!("../../../maps/", $path))
     };
 }
 
 const SHOWS: &[Show] = &[
     Show {
         name: "office",
-        map: || {
-            let yaml = parse_ros("office.yaml", carried!("office.yaml"))?;
-            yaml.grid("office.pgm", carried!("office.pgm"), Unknown::Blocked)
+        scene: || {
+            let yaml = parse_ros("office.yaml", carried!("grids/office.yaml"))?;
+            let pgm = carried!("grids/office.pgm");
+            let scene = GridScene::new(
+                yaml.grid("office.pgm", pgm, Unknown::Blocked)?,
+                Cell::new(324, 278),
+                Cell::new(40, 248),
+            )?;
+            Ok(scene.with_robot(Robot::of_radius(3.0))?.into())
         },
-        from: Cell::new(324, 278),
-        to: Cell::new(40, 248),
-        moves: Moves::OnlyWhenNoObstacles,
-        radius: 3.0,
     },
     Show {
         name: "maze",
-        map: || parse_movingai("maze", carried!("redlarski/maze-100.map")),
-        from: Cell::new(0, 0),
-        to: Cell::new(99, 99),
-        moves: Moves::Always,
-        radius: 0.0,
+        scene: || {
+            let map = parse_movingai("maze", carried!("grids/redlarski/maze-100.map"));
+            from_cell_to_cell(map, (0, 0), (99, 99))
+        },
     },
     Show {
         name: "mosaic",
-        map: || parse_movingai("mosaic", carried!("redlarski/mosaic-100.map")),
-        from: Cell::new(2, 54),
-        to: Cell::new(97, 54),
-        moves: Moves::Always,
-        radius: 0.0,
+        scene: || {
+            let map = parse_movingai("mosaic", carried!("grids/redlarski/mosaic-100.map"));
+            from_cell_to_cell(map, (2, 54), (97, 54))
+        },
+    },
+    Show {
+        name: "yard",
+        scene: || {
+            let yard = parse_world("yard", carried!("worlds/yard.toml"))?;
+            let robot = Robot::of_radius(0.6);
+            let (from, to) = (Point::new(5.0, 5.0), Point::new(105.0, 71.0));
+            Ok(WorldScene::new(yard.world, robot, from, to)?.into())
+        },
     },
 ];
+
+fn from_cell_to_cell(
+    map: Result<Grid, FileError>,
+    from: (u32, u32),
+    to: (u32, u32),
+) -> Result<Scene, Failure> {
+    let (from, to) = (Cell::new(from.0, from.1), Cell::new(to.0, to.1));
+    let scene = GridScene::new(map?, from, to)?;
+    Ok(scene.with_moves(Moves::Always).into())
+}
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
     fs::create_dir_all(&args.out).map_err(|error| {
@@ -100,7 +116,7 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     }
     let mut pictures = 0;
     for show in SHOWS {
-        let question = show.question()?;
+        let question = Question::of(show.name, (show.scene)()?);
         let mut answers = Vec::new();
         for entry in all() {
             let answer = show.plan(entry, &question, args, cancel)?;
@@ -120,13 +136,6 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
 }
 
 impl Show {
-    fn question(&self) -> Result<Question, Failure> {
-        let scene = GridScene::new((self.map)()?, self.from, self.to)?
-            .with_moves(self.moves)
-            .with_robot(Robot::of_radius(self.radius))?;
-        Ok(Question::of(self.name, scene))
-    }
-
     /// Plans and draws. The time told is the best of a few, without the listener that a picture
     /// needs: the first call on a map also asks the system for memory.
     fn plan(

@@ -260,10 +260,13 @@ impl Told<'_> {
         let (size, rules) = match self.scene() {
             Scene::Grid(scene) => {
                 let (width, height) = (scene.map().width(), scene.map().height());
-                (
-                    format!("{width} x {height} cells"),
-                    format!(", {}", scene.moves()),
-                )
+                // Who goes straight makes no moves.
+                let moves = if self.is_converted() {
+                    String::new()
+                } else {
+                    format!(", {}", scene.moves())
+                };
+                (format!("{width} x {height} cells"), moves)
             }
             Scene::World(scene) => {
                 let bounds = scene.world().bounds();
@@ -293,19 +296,20 @@ impl Told<'_> {
         let (scene, answer) = (self.scene(), &self.answer);
         let mut picture = shown.search(view::ground(scene));
         for line in &answer.lines {
-            picture = view::path(picture, scene, &self.entry.name(), Pen::Solid, line);
-            if shown.clearance {
-                picture = self.coloured(picture, line);
-            }
+            picture = if shown.clearance {
+                view::coloured(picture, scene, line)
+            } else {
+                view::path(picture, scene, &self.entry.name(), Pen::Solid, line)
+            };
         }
         if let Some(line) = &self.nearest {
             picture = view::path(picture, scene, "to the nearest cell", Pen::Dashed, line);
         }
         let cost = match (answer.costs.first(), scene) {
-            (Some(&cost), Scene::Grid(_)) => {
+            (Some(&cost), Scene::Grid(_)) if !self.is_converted() => {
                 format!("{}, cost {}", answer.outcome, text::number(cost))
             }
-            (Some(&length), Scene::World(_)) => {
+            (Some(&length), _) => {
                 format!("{}, length {}", answer.outcome, text::number(length))
             }
             (None, _) => answer.outcome.to_owned(),
@@ -314,18 +318,6 @@ impl Told<'_> {
         view::ends(picture, scene)
             .caption(self.title())
             .caption(format!("{cost}, {expanded} expanded, seed {seed}"))
-    }
-
-    fn coloured(&self, picture: Picture, line: &Line) -> Picture {
-        let points = view::on_picture(self.scene(), line);
-        let at = |world: &World| {
-            let world = world.clone();
-            move |[x, y]: [f64; 2]| world.clearance_at(GeomPoint::new(x, y))
-        };
-        match self.scene() {
-            Scene::Grid(scene) => picture.clearance(&points, at(&world_of(scene.map()))),
-            Scene::World(scene) => picture.clearance(&points, at(scene.world())),
-        }
     }
 }
 

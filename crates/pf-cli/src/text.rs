@@ -27,7 +27,10 @@ fn significant(x: f64) -> String {
 /// At most four decimals.
 pub(crate) fn number(x: f64) -> String {
     let text = format!("{x:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    match text.trim_end_matches('0').trim_end_matches('.') {
+        "-0" => "0".to_owned(),
+        text => text.to_owned(),
+    }
 }
 
 /// The number that is written with at most twelve digits.
@@ -53,6 +56,7 @@ mod tests {
     fn numbers_are_short() {
         assert_eq!(number(12.0), "12");
         assert_eq!(number(12.340_001), "12.34");
+        assert_eq!(number(-1e-12), "0");
         assert_eq!(time(Duration::from_nanos(1500)), "1.50 us");
         assert_eq!(time(Duration::from_millis(12)), "12.0 ms");
         assert_eq!(time(Duration::from_secs(200)), "200 s");

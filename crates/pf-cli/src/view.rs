@@ -1,7 +1,7 @@
 //! Scenes and paths as pictures.
 
 use crate::spot::Spot;
-use pf_geom::{Point, Raster};
+use pf_geom::{Point, Raster, world_of};
 use pf_grid::{Cell, Grid, GridChange};
 use pf_planners::{Line, Scene};
 use pf_render::{Line as Pen, Picture, Recorder};
@@ -56,11 +56,29 @@ pub(crate) fn ground(scene: &Scene) -> Picture {
 /// A path, and what the scene's robot sweeps on it if it is an answer.
 pub(crate) fn path(picture: Picture, scene: &Scene, name: &str, pen: Pen, line: &Line) -> Picture {
     let points = on_picture(scene, line);
-    let radius = scene.robot().radius;
-    if radius > 0.0 && pen == Pen::Solid {
-        return picture.swath(&points, radius).line(name, pen, &points);
+    match pen {
+        Pen::Solid => swath(picture, scene, &points).line(name, pen, &points),
+        Pen::Dashed => picture.line(name, pen, &points),
     }
-    picture.line(name, pen, &points)
+}
+
+/// What the scene's robot sweeps on its way.
+fn swath(picture: Picture, scene: &Scene, points: &[[f64; 2]]) -> Picture {
+    match scene.robot().radius {
+        0.0 => picture,
+        radius => picture.swath(points, radius),
+    }
+}
+
+/// An answer coloured by its clearance.
+pub(crate) fn coloured(picture: Picture, scene: &Scene, line: &Line) -> Picture {
+    let points = on_picture(scene, line);
+    let picture = swath(picture, scene, &points);
+    let world = match scene {
+        Scene::Grid(scene) => &world_of(scene.map()),
+        Scene::World(scene) => scene.world(),
+    };
+    picture.clearance(&points, |[x, y]| world.clearance_at(Point::new(x, y)))
 }
 
 /// The points of a line in a picture's units: the cell 0,0 has its middle at 0.5,0.5.

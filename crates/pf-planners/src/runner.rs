@@ -132,7 +132,8 @@ fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> A
         match &report.outcome {
             Outcome::Infeasible => say("unproved", conversion.dead_end()),
             Outcome::Optimal(_) => {
-                let text = "the best of the converted map, not proved to be the best of the map";
+                let text =
+                    "the best of the converted map, not proved to be the best of the map itself";
                 say("unproved", text.to_owned());
             }
             Outcome::Feasible(_) | Outcome::Unknown { .. } => {}

@@ -49,7 +49,7 @@ pub(crate) enum Layer {
         colour: &'static str,
         line: Line,
     },
-    /// A wide line below those that are paths.
+    /// Parts of a path, over its line.
     Band {
         lines: Vec<Vec<[f64; 2]>>,
         colour: &'static str,

@@ -51,14 +51,16 @@ fn map(out: &mut String, picture: &Picture, page: &Page) {
 <rect width="{w}" height="{h}" fill="{}"/>"#,
         palette::FREE
     );
-    // Markers stand over lines, lines over cells, whatever the order they came in.
+    // Markers stand over lines, lines over obstacles, obstacles over cells, whatever the order they
+    // came in.
     let rank = |layer: &&Layer| match layer {
+        Layer::Shapes { grown, .. } if *grown <= 0.0 => 1,
         Layer::Cells { .. } | Layer::Shapes { .. } => 0,
-        Layer::Threads(_) | Layer::Dots { .. } => 1,
-        Layer::Swath { .. } => 2,
-        Layer::Band { .. } => 3,
+        Layer::Threads(_) | Layer::Dots { .. } => 2,
+        Layer::Swath { .. } => 3,
         Layer::Line { .. } => 4,
-        Layer::Start(_) | Layer::Goal(_) => 5,
+        Layer::Band { .. } => 5,
+        Layer::Start(_) | Layer::Goal(_) => 6,
     };
     let mut layers: Vec<_> = picture.layers.iter().collect();
     layers.sort_by_key(rank);
@@ -134,10 +136,10 @@ fn draw(out: &mut String, page: &Page, layer: &Layer) {
             for line in lines {
                 let _ = write!(data, "M{}", polyline(page, line));
             }
-            let width = short(page.pen * 2.6);
+            let width = short(page.pen + 1.0);
             let _ = writeln!(
                 out,
-                r#"<path fill="none" stroke="{colour}" stroke-width="{width}" stroke-linejoin="round" d="{data}"/>"#
+                r#"<path fill="none" stroke="{colour}" stroke-width="{width}" stroke-linejoin="round" stroke-linecap="round" d="{data}"/>"#
             );
         }
         Layer::Swath {

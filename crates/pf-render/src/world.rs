@@ -103,7 +103,7 @@ impl Picture {
         self.key(Key::Dot(palette::HEAT[5]), "expanded, darker later")
     }
 
-    /// Colours a path by the distance to the nearest obstacle along it, from the least to the
+    /// A path coloured by the distance to the nearest obstacle along it, from the least to the
     /// greatest; `at` says it of a point.
     #[must_use]
     pub fn clearance(mut self, points: &[[f64; 2]], at: impl Fn([f64; 2]) -> f64) -> Self {
@@ -130,17 +130,22 @@ impl Picture {
             }
             before = Some(shade);
         }
-        for (k, (lines, colour)) in bands.into_iter().zip(palette::CLEARANCE).enumerate() {
-            if lines.is_empty() {
-                continue;
-            }
-            self.layers.push(Layer::Band { lines, colour });
+        // Its white rim.
+        self.layers.push(Layer::Line {
+            points: points.to_vec(),
+            colour: palette::FREE,
+            line: crate::Line::Solid,
+        });
+        for (k, (lines, colour)) in (1u32..).zip(bands.into_iter().zip(palette::CLEARANCE)) {
+            let to = least + (most - least) * f64::from(k) / 5.0;
             let words = match k {
-                0 => format!("clearance from {}", rounded(least)),
-                k if k == shades - 1 => format!("to {}", rounded(most)),
-                _ => continue,
+                1 => format!("clearance {} to {}", rounded(least), rounded(to)),
+                _ => format!("to {}", rounded(to)),
             };
-            self = self.key(Key::Cells(colour, 1.0), &words);
+            if !lines.is_empty() {
+                self.layers.push(Layer::Band { lines, colour });
+                self = self.key(Key::Line(colour, crate::Line::Solid), &words);
+            }
         }
         self
     }
@@ -187,7 +192,7 @@ fn cut(points: &[[f64; 2]], longest: f64) -> Vec<[[f64; 2]; 2]> {
 }
 
 fn rounded(x: f64) -> String {
-    let text = format!("{x:.3}");
+    let text = format!("{x:.2}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -226,7 +231,7 @@ mod tests {
             "too near",
             "known to be free",
             "expanded",
-            "clearance from 0.",
+            "clearance 0.",
             "5 units",
             r#"stroke-width="51.2""#,
         ] {
