@@ -105,8 +105,8 @@ impl Segment {
                 }
                 continue;
             }
-            let inverse = 1.0 / step;
-            let (low, high) = ((min[k] - start) * inverse, (max[k] - start) * inverse);
+            // Divided, not multiplied by the inverse, which may be infinite.
+            let (low, high) = ((min[k] - start) / step, (max[k] - start) / step);
             from = from.max(low.min(high));
             to = to.min(low.max(high));
         }

@@ -86,15 +86,23 @@ impl Rectangle {
         })
     }
 
+    /// The rectangle between two corners known to be good ones.
+    pub(crate) const fn spanning(min: Point, max: Point) -> Self {
+        Self {
+            min,
+            max,
+            peak: None,
+        }
+    }
+
     /// The same, with the point where its potential is highest, for planners that have one.
     ///
     /// # Errors
-    /// [`InvalidProblem`] if the peak does not lie strictly inside.
+    /// [`InvalidProblem`] if the peak lies outside; on the border it may lie.
     pub fn with_peak(mut self, peak: Point) -> Result<Self, InvalidProblem> {
-        let inside = (0..2).all(|k| self.min[k] < peak[k] && peak[k] < self.max[k]);
-        if !inside {
+        if !self.contains(peak) {
             let place = format!("({}, {})", peak.x, peak.y);
-            return Err(bad("the rectangle's peak", place, "a point inside it"));
+            return Err(bad("the rectangle's peak", place, "a point in it"));
         }
         self.peak = Some(peak);
         Ok(self)
@@ -117,6 +125,12 @@ impl Rectangle {
     pub fn peak(&self) -> Point {
         self.peak
             .unwrap_or_else(|| nalgebra::center(&self.min, &self.max))
+    }
+
+    /// Where its potential is highest, if that was said.
+    #[must_use]
+    pub fn own_peak(&self) -> Option<Point> {
+        self.peak
     }
 
     /// Its corners, counterclockwise from the lower left.
@@ -162,6 +176,20 @@ impl Polygon {
         }
         let convex = (0..n).all(|k| turn(&corners, k) >= 0.0);
         Ok(Self { corners, convex })
+    }
+
+    /// A polygon that need not be simple: inside is what its border goes round an odd number of
+    /// times.
+    pub(crate) const fn even_odd(corners: Vec<Point>) -> Self {
+        Self {
+            corners,
+            convex: false,
+        }
+    }
+
+    /// Its corners, to be used for another.
+    pub(crate) fn into_corners(self) -> Vec<Point> {
+        self.corners
     }
 
     /// Its corners, counterclockwise.
@@ -370,12 +398,15 @@ fn first_crossing(segment: &Segment, side: &Segment) -> Option<f64> {
     let (along, edge) = (segment.b - segment.a, side.b - side.a);
     let across = cross(along, edge);
     let apart = side.a - segment.a;
-    if across == 0.0 {
+    if across.abs() <= 1e-12 * along.norm() * edge.norm() {
         // Along the same line the nearer corner is met first, and it belongs to another side, too.
         return None;
     }
     let (t, s) = (cross(apart, edge) / across, cross(apart, along) / across);
-    ((0.0..=1.0).contains(&t) && (0.0..=1.0).contains(&s)).then_some(t)
+    // A little more than the side, lest rounding let a ray slip between two sides at their corner,
+    // or begin on a side and miss it.
+    let within = |x: f64| (-1e-10..=1.0 + 1e-10).contains(&x);
+    (within(t) && within(s)).then_some(t.clamp(0.0, 1.0))
 }
 
 /// Whether part of a segment lies further than `depth` inside all half planes, each given by a
@@ -437,10 +468,21 @@ fn check_simple(corners: &[Point]) -> Result<(), InvalidProblem> {
         if cross(u, v) == 0.0 && u.dot(&v) < 0.0 {
             return refuse(i, (i + 1) % n);
         }
-        for j in i + 2..n {
-            let neighbours = (j + 1) % n == i;
-            if !neighbours && this.distance_to_segment(&side(j)) <= 0.0 {
-                return refuse(i, j);
+    }
+    // A sweep from left to right: only sides that share some x are looked at in pairs.
+    let mut sides: Vec<_> = (0..n)
+        .map(|k| {
+            let Segment { a, b } = side(k);
+            (k, a.inf(&b), a.sup(&b))
+        })
+        .collect();
+    sides.sort_by(|(_, a, _), (_, b, _)| a.x.total_cmp(&b.x));
+    for (at, &(i, low, high)) in sides.iter().enumerate() {
+        let near = sides[at + 1..].iter().take_while(|(_, l, _)| l.x <= high.x);
+        for &(j, _, _) in near.filter(|(_, l, h)| l.y <= high.y && h.y >= low.y) {
+            let neighbours = (i + 1) % n == j || (j + 1) % n == i;
+            if !neighbours && side(i).distance_to_segment(&side(j)) <= 0.0 {
+                return refuse(i.min(j), i.max(j));
             }
         }
     }

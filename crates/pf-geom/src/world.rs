@@ -180,6 +180,13 @@ impl World {
         ids
     }
 
+    /// Shows the obstacles whose bounding boxes touch a box, in no particular order.
+    pub(crate) fn each_within(&self, min: Point, max: Point, mut found: impl FnMut(&Shape)) {
+        self.index.each_in_box(min, max, |id| {
+            self.shape(id).into_iter().for_each(&mut found);
+        });
+    }
+
     /// The first obstacle on the way of a ray from `origin` in `direction`, and how far it is, if
     /// it is no further than `reach`. From inside an obstacle the distance is 0.
     ///
