@@ -11,7 +11,7 @@
 mod disc;
 mod route;
 
-use crate::{Point, Segment, Vector, WorldProblem, cross};
+use crate::{Point, Segment, ShapeId, Vector, WorldProblem, cross};
 use disc::{Disc, Group, Room, SAME_ANGLE, Tangent, Turn, discs};
 use pf_core::{Context, Stamp};
 pub use route::{Bend, Route};
@@ -27,6 +27,8 @@ pub struct TangentGraph {
     groups: Vec<Group>,
     /// By disc; unknown until asked for.
     rooms: Vec<Option<Room>>,
+    /// By disc, and last for the start: what was last in the way. Often it is again.
+    in_the_way: Vec<[ShapeId; 2]>,
     /// By node: disc and turn. Unknown until the node is first expanded.
     edges: Vec<Option<Vec<Edge>>>,
     /// From where the start's edges are.
@@ -201,6 +203,9 @@ impl TangentGraph {
             let nodes = 2 * self.discs.len();
             self.rooms.clear();
             self.rooms.resize(self.discs.len(), None);
+            self.in_the_way.clear();
+            self.in_the_way
+                .resize(self.discs.len() + 1, [ShapeId::MAX; 2]);
             self.edges.clear();
             self.edges.resize(nodes, None);
             self.settled.iter_mut().for_each(Vec::clear);
@@ -238,19 +243,22 @@ impl TangentGraph {
 
     /// Goes the way to its end, if it is free and better than those that were there before.
     fn follow(&mut self, problem: &WorldProblem, way: &Candidate) -> Option<Label> {
-        let (from, edge) = if way.parent == START {
-            let from = Disc::point(problem.start());
-            (from, self.start_edges.get_mut(way.edge as usize)?)
+        let start;
+        let (from, in_the_way, edge) = if way.parent == START {
+            start = Disc::point(problem.start());
+            let last = self.discs.len();
+            let edge = self.start_edges.get_mut(way.edge as usize)?;
+            (&start, &mut self.in_the_way[last], edge)
         } else {
             let node = self.labels[way.parent as usize].node as usize;
-            let from = self.discs[node / 2].clone();
-            (from, self.edges[node].as_mut()?.get_mut(way.edge as usize)?)
+            let edge = self.edges[node].as_mut()?.get_mut(way.edge as usize)?;
+            let disc = node / 2;
+            (&self.discs[disc], &mut self.in_the_way[disc], edge)
         };
         let to = &self.discs[edge.to as usize / 2];
-        let free = *edge.free.get_or_insert_with(|| {
-            let piece = edge.tangent.segment(&from, to);
-            problem.world().is_free(&piece, problem.radius())
-        });
+        let free = *edge
+            .free
+            .get_or_insert_with(|| is_free(problem, &edge.tangent.segment(from, to), in_the_way));
         let edge = *edge;
         let label = Label {
             node: edge.to,
@@ -359,6 +367,20 @@ impl TangentGraph {
             length: way.g,
         })
     }
+}
+
+/// Whether the robot can go along a piece; what was in the way last is looked at first.
+fn is_free(problem: &WorldProblem, piece: &Segment, in_the_way: &mut [ShapeId; 2]) -> bool {
+    let (world, radius) = (problem.world(), problem.radius());
+    let again = |&id: &ShapeId| world.shape(id).is_some_and(|s| s.blocks(piece, radius));
+    if in_the_way.iter().any(again) {
+        return false;
+    }
+    if let Some(id) = world.blocker(piece, radius) {
+        *in_the_way = [id, in_the_way[0]];
+        return false;
+    }
+    world.is_within_bounds(piece)
 }
 
 fn turn_of(node: u32) -> Turn {
