@@ -49,7 +49,15 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     if !args.json {
         say(format_args!(
             "{:<28} {:<28} {:>8} {:>10} {:>10} {:>10} {:>7} {:>7} {:>10}",
-            "case", "what", "queries", "mean us", "median us", "p95 us", "ratio", "target", "mismatches"
+            "case",
+            "what",
+            "queries",
+            "mean us",
+            "median us",
+            "p95 us",
+            "ratio",
+            "target",
+            "mismatches"
         ))?;
     }
     let mut mismatches = 0;

@@ -58,7 +58,11 @@ fn change(
         ("World::translate", moved),
         ("World::remove", removed),
     ] {
-        tell(Case::of(&format!("world of {count}"), &[(what, tally)], None))?;
+        tell(Case::of(
+            &format!("world of {count}"),
+            &[(what, tally)],
+            None,
+        ))?;
     }
     Ok(())
 }

@@ -130,7 +130,10 @@ fn theirs(shape: &Shape) -> (Pose, SharedShape) {
             let corners: Vec<Raw> = p.corners().iter().map(|&c| raw(c)).collect();
             let convex = ConvexPolygon::from_convex_polyline_unmodified(corners);
             let shape = convex.map(SharedShape::new);
-            (Pose::IDENTITY, shape.unwrap_or_else(|| SharedShape::new(Ball::new(0.0))))
+            (
+                Pose::IDENTITY,
+                shape.unwrap_or_else(|| SharedShape::new(Ball::new(0.0))),
+            )
         }
     }
 }
