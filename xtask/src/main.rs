@@ -14,6 +14,7 @@ mod steps;
 mod test;
 mod tidy;
 mod workspace;
+mod yard;
 
 use clap::{Parser, Subcommand};
 use std::process::ExitCode;

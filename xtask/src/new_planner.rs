@@ -11,7 +11,8 @@ use toml_edit::{Array, DocumentMut, InlineTable, Item, Value};
 #[derive(clap::Args)]
 pub(crate) struct Args {
     /// The crate's name, as in `pf-wave`: lower case, words joined by `-`
-    name: String,
+    #[arg(value_parser = Names::of)]
+    name: Names,
     /// What it plans on
     #[arg(long)]
     on: On,
@@ -43,7 +44,8 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
         let kind = format!("{:?}", args.on).to_lowercase();
         bail!("planners on a {kind} come with pf-geom, which is not there yet; `--on grid` is");
     }
-    let names = generate(root(), &args.name)?;
+    let names = &args.name;
+    generate(root(), names)?;
     println!(
         "Made crates/{0}, listed in Cargo.toml. Now:\n\
          \x20 cargo test -p {0}    # fails at the law its planner breaks, until it is written\n\
@@ -55,7 +57,7 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
 }
 
 /// The names of one planner.
-#[derive(Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 struct Names {
     /// `pf-wave-front`
     package: String,
@@ -106,8 +108,8 @@ impl Names {
 }
 
 /// Makes the crate in the workspace at `root`, whole or not at all.
-fn generate(root: &Path, package: &str) -> Result<Names> {
-    let names = Names::of(package)?;
+fn generate(root: &Path, names: &Names) -> Result<()> {
+    let package = &names.package;
     let folder = root.join("crates").join(package);
     ensure!(!folder.exists(), "crates/{package} is there already");
     let manifest = root.join("Cargo.toml");
@@ -125,7 +127,7 @@ fn generate(root: &Path, package: &str) -> Result<Names> {
     let _ = cargo(["fmt", "--package", package])
         .current_dir(root)
         .output();
-    Ok(names)
+    Ok(())
 }
 
 /// The workspace's manifest with one more planner among its members and dependencies.
@@ -183,7 +185,7 @@ pub(crate) fn rehearse() -> Result<Verdict> {
         fs::create_dir_all(to.parent().context("a file has a folder")?)?;
         fs::copy(root().join(&path), to)?;
     }
-    generate(&copy, NAME)?;
+    generate(&copy, &Names::of(NAME)?)?;
     let command = |args: &[&str]| {
         let mut command = cargo(args);
         command
@@ -264,7 +266,8 @@ mod tests {
 
     #[test]
     fn nothing_is_overwritten() {
-        let error = generate(root(), "pf-core").unwrap_err().to_string();
+        let core = Names::of("pf-core").unwrap();
+        let error = generate(root(), &core).unwrap_err().to_string();
         assert_eq!(error, "crates/pf-core is there already");
     }
 }

@@ -422,7 +422,11 @@ mod tests {
     fn what_is_unknown_can_be_free() {
         let unknown = Unknown::Free;
         let path = grids().join("office.yaml");
-        let outside = load_grid(&path, &LoadOptions { unknown }).unwrap().grid;
+        let options = LoadOptions {
+            unknown,
+            ..LoadOptions::default()
+        };
+        let outside = load_grid(&path, &options).unwrap().grid;
         let inside = load_grid(&path, &LoadOptions::default()).unwrap().grid;
         assert!(outside.is_free(Cell::new(2, 2)) && !inside.is_free(Cell::new(2, 2)));
     }

@@ -77,6 +77,21 @@ impl VisibilityGraph {
         &self.graph
     }
 
+    fn answer(
+        &mut self,
+        problem: &WorldProblem,
+        cx: &mut Context<'_, WorldProblem>,
+    ) -> Report<WorldProblem> {
+        match self.graph.shortest(problem, cx) {
+            Answer::Route(route) => {
+                let path = self.flattened(problem, &route);
+                cx.answer(problem, path, Proof::Optimal)
+            }
+            Answer::Nothing => cx.report(Outcome::Infeasible),
+            Answer::Cut => cx.report(Outcome::Unknown { attempt: None }),
+        }
+    }
+
     /// The route as a polyline that keeps clear: where a piece outside an arc would touch
     /// something else, the pieces are made smaller.
     fn flattened(&self, problem: &WorldProblem, route: &Route) -> Vec<pf_geom::Point> {
@@ -105,14 +120,8 @@ impl Planner<WorldProblem> for VisibilityGraph {
         problem: &WorldProblem,
         cx: &mut Context<'_, WorldProblem>,
     ) -> Result<Report<WorldProblem>, Unsupported> {
-        Ok(match self.graph.shortest(problem, cx) {
-            Answer::Route(route) => {
-                let path = self.flattened(problem, &route);
-                cx.answer(problem, path, Proof::Optimal)
-            }
-            Answer::Nothing => cx.report(Outcome::Infeasible),
-            Answer::Cut => cx.report(Outcome::Unknown { attempt: None }),
-        })
+        self.graph.forget();
+        Ok(self.answer(problem, cx))
     }
 }
 
@@ -123,6 +132,6 @@ impl Replanner<WorldProblem> for VisibilityGraph {
         revision: &Revision<'_, WorldProblem>,
         cx: &mut Context<'_, WorldProblem>,
     ) -> Result<Report<WorldProblem>, Unsupported> {
-        self.plan(revision.problem(), cx)
+        Ok(self.answer(revision.problem(), cx))
     }
 }

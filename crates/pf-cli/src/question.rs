@@ -45,6 +45,7 @@ pub(crate) fn is_scenario(file: &Path) -> bool {
 pub(crate) fn map(file: &Path, args: &QuestionArgs) -> Result<Arc<Grid>, Failure> {
     let options = LoadOptions {
         unknown: args.unknown.unwrap_or_default(),
+        ..LoadOptions::default()
     };
     Ok(load_grid(file, &options)?.grid)
 }

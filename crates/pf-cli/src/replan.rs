@@ -34,7 +34,7 @@ Examples:
   pf replan door.toml --planner astar --json
   pf replan maps/scenarios/redlarski.toml --case 'maze-100 table 3' --svg maze.svg")]
 pub(crate) struct Args {
-    /// A scenario file with [[event]]s, or with cases that follow others
+    /// A scenario file with events, or with cases that follow others
     scenario: PathBuf,
     #[command(flatten)]
     question: QuestionArgs,

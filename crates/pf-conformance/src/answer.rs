@@ -63,10 +63,10 @@ impl<'a, P: Problem> Answer<'a, P> {
         let stop = self.run.report.stop.word();
         match (&self.run.report.outcome, self.truth) {
             (Outcome::Feasible(_) | Outcome::Unknown { .. }, _) => return Ok(()),
-            (Outcome::Infeasible, Truth::Optimum(_) | Truth::Solvable) => {
+            (Outcome::Infeasible, Truth::Optimum(_) | Truth::Between(..) | Truth::Solvable) => {
                 return Err("called infeasible, and there is a solution".into());
             }
-            (Outcome::Optimal(_), Truth::Optimum(best)) => {
+            (Outcome::Optimal(_), Truth::Optimum(best) | Truth::Between(_, best)) => {
                 if let Some(cost) = self.judged() {
                     ensure(cost.no_worse_than(best), || {
                         format!("called optimal at {cost:?}, and {best:?} is possible")
@@ -97,6 +97,12 @@ impl<'a, P: Problem> Answer<'a, P> {
             (Some(cost), Truth::Optimum(best)) => ensure(cost.same_as(best), || {
                 format!("costs {cost:?}, and {best:?} is the best")
             }),
+            (Some(cost), Truth::Between(least, most)) => {
+                let between = least.no_worse_than(&cost) && cost.no_worse_than(most);
+                ensure(between, || {
+                    format!("costs {cost:?}, and the best from {least:?} to {most:?}")
+                })
+            }
             _ => Ok(()),
         }
     }

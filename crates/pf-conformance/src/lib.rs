@@ -2,6 +2,7 @@
 
 pub mod grid;
 pub mod rogues;
+pub mod world;
 
 mod answer;
 mod exam;

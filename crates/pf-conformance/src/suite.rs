@@ -7,6 +7,9 @@ use pf_core::{PlanRng, Problem};
 pub enum Truth<C> {
     /// It has a solution, and the best costs this.
     Optimum(C),
+    /// It has a solution, the best costs no less than the first, and what costs more than the
+    /// second is not the best: where the best is a limit, or known only so well.
+    Between(C, C),
     /// It has a solution.
     Solvable,
     /// It has none.
@@ -90,7 +93,7 @@ pub enum Plot {
 
 /// A kind of problem, as far as the kit must know it.
 ///
-/// [`grid::Grids`](crate::grid::Grids) is one. With another for problems of your own,
+/// [`grid::Grids`](crate::grid::Grids) and [`world::Worlds`](crate::world::Worlds) are two. With another for problems of your own,
 /// [`examine`](crate::examine) holds planners for these to the same laws.
 pub trait Suite {
     /// The problem.
@@ -122,7 +125,7 @@ pub struct Options {
     pub cases: u32,
     /// From which seed.
     pub seed: u64,
-    /// Leave out what is larger: cells of a grid. For planners that take seconds where others take
+    /// Leave out what is larger: cells of a grid, shapes of a world. For planners that take seconds where others take
     /// milliseconds.
     pub largest: u64,
     /// At most so many iterations a run, for planners that would not end of their own accord.

@@ -17,9 +17,9 @@ use pf_grid::{Cell, Grid};
 /// ```
 /// # use pf_geom::*;
 /// let grid = pf_grid::Grid::parse("
-///     ..#..
-///     #####
-///     ..#..
+///     ..@..
+///     @@@@@
+///     ..@..
 /// ").unwrap();
 /// let world = world_of(&grid);
 /// assert_eq!(world.shapes().count(), 2);

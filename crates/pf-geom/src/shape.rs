@@ -1,4 +1,4 @@
-use crate::{Point, Segment, cross, segment::point_to_box};
+use crate::{Point, Segment, Vector, cross, segment::point_to_box};
 use pf_core::InvalidProblem;
 use std::fmt::Display;
 
@@ -35,6 +35,8 @@ pub struct Rectangle {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Polygon {
     corners: Vec<Point>,
+    /// The direction of the side that begins at each corner; only asked for if it is convex.
+    along: Vec<Vector>,
     convex: bool,
 }
 
@@ -98,12 +100,11 @@ impl Rectangle {
     /// The same, with the point where its potential is highest, for planners that have one.
     ///
     /// # Errors
-    /// [`InvalidProblem`] if the peak does not lie strictly inside.
+    /// [`InvalidProblem`] if the peak lies outside; on the border it may lie.
     pub fn with_peak(mut self, peak: Point) -> Result<Self, InvalidProblem> {
-        let inside = (0..2).all(|k| self.min[k] < peak[k] && peak[k] < self.max[k]);
-        if !inside {
+        if !self.contains(peak) {
             let place = format!("({}, {})", peak.x, peak.y);
-            return Err(bad("the rectangle's peak", place, "a point inside it"));
+            return Err(bad("the rectangle's peak", place, "a point in it"));
         }
         self.peak = Some(peak);
         Ok(self)
@@ -126,6 +127,12 @@ impl Rectangle {
     pub fn peak(&self) -> Point {
         self.peak
             .unwrap_or_else(|| nalgebra::center(&self.min, &self.max))
+    }
+
+    /// Where its potential is highest, if that was said.
+    #[must_use]
+    pub fn own_peak(&self) -> Option<Point> {
+        self.peak
     }
 
     /// Its corners, counterclockwise from the lower left.
@@ -170,7 +177,12 @@ impl Polygon {
             corners.reverse();
         }
         let convex = (0..n).all(|k| turn(&corners, k) >= 0.0);
-        Ok(Self { corners, convex })
+        let along = (0..n).map(|k| (corners[(k + 1) % n] - corners[k]).normalize());
+        Ok(Self {
+            along: along.collect(),
+            corners,
+            convex,
+        })
     }
 
     /// A polygon that need not be simple: inside is what its border goes round an odd number of
@@ -178,6 +190,7 @@ impl Polygon {
     pub(crate) const fn even_odd(corners: Vec<Point>) -> Self {
         Self {
             corners,
+            along: Vec::new(),
             convex: false,
         }
     }
@@ -220,6 +233,41 @@ impl Polygon {
         inside
     }
 
+    /// Whether part of a segment lies further than `depth` to the inside of all sides' lines. Less
+    /// than 0 is outside.
+    fn is_within_half_planes(&self, segment: &Segment, depth: f64) -> bool {
+        let (mut from, mut to) = (0.0f64, 1.0f64);
+        for (on, along) in self.corners.iter().zip(&self.along) {
+            let (a, b) = (
+                cross(*along, segment.a - on) - depth,
+                cross(*along, segment.b - on) - depth,
+            );
+            if a <= 0.0 && b <= 0.0 {
+                return false;
+            }
+            if a < 0.0 {
+                from = from.max(a / (a - b));
+            } else if b < 0.0 {
+                to = to.min(a / (a - b));
+            }
+        }
+        from < to
+    }
+
+    /// Whether a segment comes nearer than `reach`, which is more than 0.
+    fn is_near(&self, segment: &Segment, reach: f64) -> bool {
+        if self.convex {
+            // Few segments come near enough for their distance to matter.
+            if !self.is_within_half_planes(segment, -reach) {
+                return false;
+            }
+            if self.is_within_half_planes(segment, 0.0) {
+                return true;
+            }
+        }
+        self.contains(segment.a) || self.border_distance(segment) < reach
+    }
+
     fn border_distance(&self, segment: &Segment) -> f64 {
         self.sides()
             .map(|side| side.distance_to_segment(segment))
@@ -235,11 +283,7 @@ impl Polygon {
     /// Whether a segment gets deeper inside than `depth`.
     fn is_entered(&self, segment: &Segment, depth: f64) -> bool {
         if self.convex {
-            let sides = self.sides().map(|side| {
-                let along = (side.b - side.a).normalize();
-                (side.a, along)
-            });
-            return is_within_half_planes(segment, sides, depth);
+            return self.is_within_half_planes(segment, depth);
         }
         // Between two places where it meets the border a segment is inside or outside; inside, its
         // middle is at least half as deep as its deepest point.
@@ -296,9 +340,10 @@ impl Shape {
         let depth = TOUCH - radius;
         match self {
             Self::Circle(c) => segment.distance_to_point(c.centre) < c.radius - depth,
-            _ if depth < 0.0 => self.distance(segment) < -depth,
+            Self::Rectangle(r) if depth < 0.0 => segment.distance_to_box(r.min, r.max) < -depth,
+            Self::Polygon(p) if depth < 0.0 => p.is_near(segment, -depth),
             Self::Rectangle(r) => {
-                let inset = crate::Vector::repeat(depth);
+                let inset = Vector::repeat(depth);
                 segment.within_box(r.min + inset, r.max - inset).is_some()
             }
             Self::Polygon(p) => p.is_entered(segment, depth),
@@ -335,7 +380,7 @@ impl Shape {
     pub fn bounding_box(&self) -> (Point, Point) {
         match self {
             Self::Circle(c) => {
-                let reach = crate::Vector::repeat(c.radius);
+                let reach = Vector::repeat(c.radius);
                 (c.centre - reach, c.centre + reach)
             }
             Self::Rectangle(r) => (r.min, r.max),
@@ -352,7 +397,7 @@ impl Shape {
     ///
     /// # Errors
     /// [`InvalidProblem`] if a number is not finite.
-    pub fn translated(&self, by: crate::Vector) -> Result<Self, InvalidProblem> {
+    pub fn translated(&self, by: Vector) -> Result<Self, InvalidProblem> {
         Ok(match self {
             Self::Circle(c) => Self::Circle(Circle::new(c.centre + by, c.radius)?),
             Self::Rectangle(r) => {
@@ -404,31 +449,6 @@ fn first_crossing(segment: &Segment, side: &Segment) -> Option<f64> {
     (within(t) && within(s)).then_some(t.clamp(0.0, 1.0))
 }
 
-/// Whether part of a segment lies further than `depth` inside all half planes, each given by a
-/// point and the direction that has its inside on the left.
-fn is_within_half_planes(
-    segment: &Segment,
-    sides: impl Iterator<Item = (Point, crate::Vector)>,
-    depth: f64,
-) -> bool {
-    let (mut from, mut to) = (0.0f64, 1.0f64);
-    for (on, along) in sides {
-        let (a, b) = (
-            cross(along, segment.a - on) - depth,
-            cross(along, segment.b - on) - depth,
-        );
-        if a <= 0.0 && b <= 0.0 {
-            return false;
-        }
-        if a < 0.0 {
-            from = from.max(a / (a - b));
-        } else if b < 0.0 {
-            to = to.min(a / (a - b));
-        }
-    }
-    from < to
-}
-
 fn twice_area(corners: &[Point]) -> f64 {
     let origin = corners[0];
     corners
@@ -463,10 +483,21 @@ fn check_simple(corners: &[Point]) -> Result<(), InvalidProblem> {
         if cross(u, v) == 0.0 && u.dot(&v) < 0.0 {
             return refuse(i, (i + 1) % n);
         }
-        for j in i + 2..n {
-            let neighbours = (j + 1) % n == i;
-            if !neighbours && this.distance_to_segment(&side(j)) <= 0.0 {
-                return refuse(i, j);
+    }
+    // A sweep from left to right: only sides that share some x are looked at in pairs.
+    let mut sides: Vec<_> = (0..n)
+        .map(|k| {
+            let Segment { a, b } = side(k);
+            (k, a.inf(&b), a.sup(&b))
+        })
+        .collect();
+    sides.sort_by(|(_, a, _), (_, b, _)| a.x.total_cmp(&b.x));
+    for (at, &(i, low, high)) in sides.iter().enumerate() {
+        let near = sides[at + 1..].iter().take_while(|(_, l, _)| l.x <= high.x);
+        for &(j, _, _) in near.filter(|(_, l, h)| l.y <= high.y && h.y >= low.y) {
+            let neighbours = (i + 1) % n == j || (j + 1) % n == i;
+            if !neighbours && side(i).distance_to_segment(&side(j)) <= 0.0 {
+                return refuse(i.min(j), i.max(j));
             }
         }
     }

@@ -132,11 +132,15 @@ impl World {
     /// centre does) and enters no obstacle.
     #[must_use]
     pub fn is_free(&self, segment: &Segment, radius: f64) -> bool {
-        let inside = |p: Point| {
-            let (min, max) = (self.bounds.min(), self.bounds.max());
-            (0..2).all(|k| min[k] - TOUCH <= p[k] && p[k] <= max[k] + TOUCH)
-        };
-        inside(segment.a) && inside(segment.b) && self.blocker(segment, radius).is_none()
+        self.is_within_bounds(segment) && self.blocker(segment, radius).is_none()
+    }
+
+    /// Whether a segment stays within the bounds.
+    #[must_use]
+    pub fn is_within_bounds(&self, segment: &Segment) -> bool {
+        let (min, max) = (self.bounds.min(), self.bounds.max());
+        let inside = |p: Point| (0..2).all(|k| min[k] - TOUCH <= p[k] && p[k] <= max[k] + TOUCH);
+        inside(segment.a) && inside(segment.b)
     }
 
     /// An obstacle that a disc of `radius` enters whose centre moves along `segment`.

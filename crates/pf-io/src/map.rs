@@ -42,10 +42,13 @@ pub enum Unknown {
 }
 
 /// How maps are read.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct LoadOptions {
     /// What unknown cells of a ROS map count as.
     pub unknown: Unknown,
+    /// How far the bounds of a GeoJSON world without a `bbox` lie from its shapes, in its unit;
+    /// without a word, a tenth of the longer side of the shapes' box.
+    pub margin: Option<f64>,
 }
 
 /// Reads a grid map: Moving AI `.map`, ROS `map_server` `.yaml` or `.yml`, `.png` or `.pgm`. A file
@@ -54,29 +57,33 @@ pub struct LoadOptions {
 /// # Errors
 /// [`FileError`] if the file cannot be read or is not a map of its kind.
 pub fn load_grid(path: &Path, options: &LoadOptions) -> Result<GridMap, FileError> {
+    grid(path, &source::read(path)?, options)
+}
+
+/// The grid in a file of this content.
+pub(crate) fn grid(
+    path: &Path,
+    bytes: &[u8],
+    options: &LoadOptions,
+) -> Result<GridMap, FileError> {
     let name = path.display().to_string();
     let extension = path.extension().map(OsStr::to_ascii_lowercase);
-    let bytes = source::read(path)?;
-    let source = Source {
-        name: &name,
-        bytes: &bytes,
-    };
-    let kind = match extension.as_deref().and_then(|e| e.to_str()) {
-        Some("map") => Kind::MovingAi,
-        Some("yaml" | "yml") => Kind::Ros,
-        Some("png" | "pgm") => Kind::Picture,
-        _ => Kind::of(&source).ok_or_else(|| {
+    let source = Source { name: &name, bytes };
+    let by_name = extension.as_deref().and_then(|e| Kind::named(e.to_str()?));
+    let kind = match by_name.or_else(|| Kind::of(&source)) {
+        Some(kind) => kind,
+        None => {
             let head = String::from_utf8_lossy(&bytes[..bytes.len().min(64)]);
             let first = quoted(head.lines().next().unwrap_or(""));
             let expected = "a map: Moving AI .map, ROS .yaml, .png or .pgm";
-            source.error(Place::Whole, first, expected)
-        })?,
+            return Err(source.error(Place::Whole, first, expected));
+        }
     };
     let (grid, frame) = match kind {
-        Kind::MovingAi => (movingai::parse_movingai(&name, &bytes)?, None),
-        Kind::Picture => (raster::parse_image(&name, &bytes)?, None),
+        Kind::MovingAi => (movingai::parse_movingai(&name, bytes)?, None),
+        Kind::Picture => (raster::parse_image(&name, bytes)?, None),
         Kind::Ros => {
-            let (grid, ros) = ros::with_picture(path, &bytes, options.unknown)?;
+            let (grid, ros) = ros::with_picture(path, bytes, options.unknown)?;
             (grid, Some(ros.frame))
         }
     };
@@ -87,6 +94,16 @@ pub fn load_grid(path: &Path, options: &LoadOptions) -> Result<GridMap, FileErro
     })
 }
 
+/// Whether files of this extension, in small letters, are grids.
+pub(crate) fn is_grid_extension(extension: &str) -> bool {
+    Kind::named(extension).is_some()
+}
+
+/// Whether a file's first bytes are those of a grid.
+pub(crate) fn is_grid(source: &Source<'_>) -> bool {
+    Kind::of(source).is_some()
+}
+
 enum Kind {
     MovingAi,
     Ros,
@@ -94,6 +111,15 @@ enum Kind {
 }
 
 impl Kind {
+    fn named(extension: &str) -> Option<Self> {
+        match extension {
+            "map" => Some(Self::MovingAi),
+            "yaml" | "yml" => Some(Self::Ros),
+            "png" | "pgm" => Some(Self::Picture),
+            _ => None,
+        }
+    }
+
     /// What a file's first bytes say it is.
     fn of(source: &Source<'_>) -> Option<Self> {
         let bytes = source.bytes;

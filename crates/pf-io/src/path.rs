@@ -1,6 +1,7 @@
 //! Paths, to be written.
 
-use crate::{FileError, GridMap, write};
+use crate::{FileError, GridMap, world::number, write};
+use pf_geom::Point;
 use pf_grid::Cell;
 use std::path::Path;
 
@@ -39,5 +40,33 @@ pub fn write_path_json(path: &Path, cells: &[Cell], map: &GridMap) -> Result<(),
             write!(out, ",\"metres\":{}", pairs(metres))?;
         }
         writeln!(out, "}}")
+    })
+}
+
+/// Writes a path in a world as CSV: `x,y` per point, in the world's unit.
+///
+/// # Errors
+/// [`FileError`] if the file cannot be written.
+pub fn write_polyline_csv(path: &Path, points: &[Point]) -> Result<(), FileError> {
+    write::whole(path, |out| {
+        writeln!(out, "x,y")?;
+        for p in points {
+            writeln!(out, "{},{}", number(p.x), number(p.y))?;
+        }
+        Ok(())
+    })
+}
+
+/// Writes a path in a world as JSON: an object whose `path` is an array of points `[x, y]` in the
+/// world's unit, with all digits.
+///
+/// # Errors
+/// [`FileError`] if the file cannot be written.
+pub fn write_polyline_json(path: &Path, points: &[Point]) -> Result<(), FileError> {
+    write::whole(path, |out| {
+        let points = points.iter().map(|&point| <[f64; 2]>::from(point));
+        let path: Vec<[f64; 2]> = points.collect();
+        let object = serde_json::json!({ "path": path });
+        writeln!(out, "{object}")
     })
 }

@@ -1,18 +1,23 @@
-//! Scenario files: queries on maps, and what happens to the maps in time.
+//! Scenario files: queries on maps or in worlds, and what happens to these in time.
 #![doc = include_str!("scenario.md")]
 
+mod grid;
+mod world;
+
+pub use grid::Case;
+pub use world::{WorldCase, WorldScenario};
+
 use crate::{
-    FileError, GridMap, LoadOptions, Unknown, load_grid, source,
+    FileError, LoadOptions, Unknown, source,
     source::Source,
     toml_tree::{File, Table},
 };
-use pf_core::Problem;
-use pf_grid::{Grid, GridChange, GridCost, GridProblem, Moves};
+use pf_grid::{GridChange, GridCost};
 use std::path::Path;
 
 /// A scenario file, checked against its maps.
 #[derive(Clone, Debug)]
-pub struct Scenario {
+pub struct Scenario<C = Case> {
     /// What it shows.
     pub title: Option<String>,
     /// The publication it is taken from.
@@ -22,7 +27,16 @@ pub struct Scenario {
     /// The unit of the events' times.
     pub time: TimeUnit,
     /// Its queries, at least one.
-    pub cases: Vec<Case>,
+    pub cases: Vec<C>,
+}
+
+/// A scenario of either sort.
+#[derive(Clone, Debug)]
+pub enum AnyScenario {
+    /// On grids.
+    Grid(Scenario),
+    /// In worlds.
+    World(WorldScenario),
 }
 
 /// What an event's time counts.
@@ -35,111 +49,127 @@ pub enum TimeUnit {
     Seconds,
 }
 
-/// A query of a [`Scenario`].
-#[derive(Clone, Debug)]
-pub struct Case {
-    /// Its name, unique in the file.
-    pub name: String,
-    /// The map, as its file shows it.
-    pub map: GridMap,
-    /// The robot's radius in cells; `problem` is not inflated by it.
-    pub radius: f64,
-    /// The case, by its place in the list, whose world and query this one starts from.
-    pub follows: Option<usize>,
-    /// What this case changes in the map, or in the case it follows.
-    pub changes: Vec<GridChange>,
-    /// The question, changes included.
-    pub problem: GridProblem,
-    /// What a shortest path costs, if the file says so.
-    pub expected: Option<Expected>,
-    /// What happens later, by ascending time.
-    pub events: Vec<Event>,
-}
-
 /// What a shortest path costs.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Expected {
-    /// Exactly.
-    pub cost: GridCost,
+pub struct Expected<C = GridCost> {
+    /// Exactly; in a world, to the digits given.
+    pub cost: C,
     /// As a publication prints it.
     pub printed: Option<String>,
 }
 
 /// What happens at one time.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Event {
+pub struct Event<C = GridChange> {
     /// When, in the scenario's [`TimeUnit`].
     pub at: f64,
     /// What people call it.
     pub name: Option<String>,
     /// What changes, one batch.
-    pub changes: Vec<GridChange>,
+    pub changes: Vec<C>,
 }
 
-const TOP_KEYS: [&str; 13] = [
-    "title",
-    "source",
-    "provenance",
-    "time",
-    "unknown",
-    "map",
-    "moves",
-    "radius",
-    "start",
-    "goal",
-    "expected",
-    "case",
-    "event",
-];
-const CASE_KEYS: [&str; 12] = [
-    "name", "follows", "map", "moves", "radius", "start", "goal", "blocked", "freed", "cost",
-    "expected", "event",
-];
-
-/// Reads a scenario file and the maps it names.
+/// Reads a scenario file on grids and the maps it names.
 ///
 /// # Errors
 /// [`FileError`] about the scenario or one of its maps; a cell outside the map is an error, too.
 pub fn read_scenario(path: &Path) -> Result<Scenario, FileError> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    let name = path.display().to_string();
-    parse_scenario(&name, &source::read(path)?, &mut |map, options| {
-        load_grid(&folder.join(map), options)
-    })
+    from_file(path, &source::read(path)?)
 }
 
-/// Reads the content of a scenario file; `load` gives the maps it names, `name` is for errors.
+/// Reads a scenario file in worlds and the worlds it names.
+///
+/// # Errors
+/// [`FileError`] about the scenario or one of its worlds; a point out of bounds is an error, too,
+/// and so is a shape that is not there (any more) when something happens to it.
+pub fn read_world_scenario(path: &Path) -> Result<WorldScenario, FileError> {
+    from_file(path, &source::read(path)?)
+}
+
+/// Reads the content of a scenario file on grids; `load` gives the maps it names, `name` is for
+/// errors.
 ///
 /// # Errors
 /// As [`read_scenario`].
 pub fn parse_scenario(
     name: &str,
     bytes: &[u8],
-    load: &mut dyn FnMut(&str, &LoadOptions) -> Result<GridMap, FileError>,
+    load: &mut dyn FnMut(&str, &LoadOptions) -> Result<crate::GridMap, FileError>,
 ) -> Result<Scenario, FileError> {
+    parse(name, bytes, load)
+}
+
+/// Reads the content of a scenario file in worlds; `load` gives the worlds it names, `name` is for
+/// errors.
+///
+/// # Errors
+/// As [`read_world_scenario`].
+pub fn parse_world_scenario(
+    name: &str,
+    bytes: &[u8],
+    load: &mut dyn FnMut(&str, &LoadOptions) -> Result<crate::WorldFile, FileError>,
+) -> Result<WorldScenario, FileError> {
+    parse(name, bytes, load)
+}
+
+/// Reads a scenario of this content; the maps it names lie beside `path`.
+pub(crate) fn from_file<C: Query>(path: &Path, bytes: &[u8]) -> Result<Scenario<C>, FileError> {
+    let folder = path.parent().unwrap_or(Path::new(""));
+    let name = path.display().to_string();
+    parse(&name, bytes, &mut |map, options| {
+        C::load(&folder.join(map), options)
+    })
+}
+
+/// What queries on grids and in worlds have of their own.
+pub(crate) trait Query: Sized {
+    type Map: Clone;
+    const TOP_KEYS: &'static [&'static str];
+    const CASE_KEYS: &'static [&'static str];
+    /// The keys that a case which follows another has from that one.
+    const FIXED_KEYS: &'static [&'static str];
+
+    fn load(path: &Path, options: &LoadOptions) -> Result<Self::Map, FileError>;
+
+    fn name(&self) -> &str;
+
+    /// A query that follows none; what `table` does not say, `top` says.
+    fn fresh(
+        top: &Table<'_>,
+        table: &Table<'_>,
+        name: String,
+        maps: &mut Maps<'_, Self::Map>,
+    ) -> Result<Self, FileError>;
+
+    /// A query that starts from what this one, which stands at `place`, asks.
+    fn followed(&self, place: usize, table: &Table<'_>, name: String) -> Result<Self, FileError>;
+}
+
+fn parse<C: Query>(
+    name: &str,
+    bytes: &[u8],
+    load: &mut dyn FnMut(&str, &LoadOptions) -> Result<C::Map, FileError>,
+) -> Result<Scenario<C>, FileError> {
     let source = Source { name, bytes };
     let file = File {
         source,
         text: source.text()?,
     };
-    let root = file.parse()?;
-    let top = Table::root(file, &root).with_keys(&TOP_KEYS)?;
+    let root = file.parse("a scenario file")?;
+    let top = Table::root(file, &root).with_keys(C::TOP_KEYS)?;
     let own = |key| Ok(top.string(key)?.map(str::to_owned));
+    let units = [("steps", TimeUnit::Steps), ("seconds", TimeUnit::Seconds)];
     let mut scenario = Scenario {
         title: own("title")?,
         source: own("source")?,
         provenance: own("provenance")?,
-        time: one_of(
-            &top,
-            "time",
-            &[("steps", TimeUnit::Steps), ("seconds", TimeUnit::Seconds)],
-        )?
-        .unwrap_or_default(),
+        time: one_of(&top, "time", &units)?.unwrap_or_default(),
         cases: Vec::new(),
     };
-    let sort = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
+    let sorts = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
     let options = LoadOptions {
-        unknown: one_of(&top, "unknown", &sort)?.unwrap_or_default(),
+        unknown: one_of(&top, "unknown", &sorts)?.unwrap_or_default(),
+        ..LoadOptions::default()
     };
     let mut maps = Maps {
         load,
@@ -150,29 +180,29 @@ pub fn parse_scenario(
     if cases.is_empty() {
         let stem = Path::new(name).file_stem().unwrap_or_default();
         let case_name = stem.to_string_lossy().into_owned();
-        let case = fresh(&top, top, case_name, &mut maps)?;
+        let case = C::fresh(&top, &top, case_name, &mut maps)?;
         scenario.cases.push(case);
     }
     if let (Some(odd), false) = (top.get("event").or(top.get("expected")), cases.is_empty()) {
         return Err(odd.error("events and lengths inside a [[case]], where there are cases"));
     }
     for table in cases {
-        let table = table.with_keys(&CASE_KEYS)?;
-        let case = case(&top, table, &scenario.cases, &mut maps)?;
+        let table = table.with_keys(C::CASE_KEYS)?;
+        let case = case(&top, &table, &scenario.cases, &mut maps)?;
         scenario.cases.push(case);
     }
     Ok(scenario)
 }
 
 /// The maps of a file, each loaded once.
-struct Maps<'l> {
-    load: &'l mut dyn FnMut(&str, &LoadOptions) -> Result<GridMap, FileError>,
+pub(crate) struct Maps<'l, M> {
+    load: &'l mut dyn FnMut(&str, &LoadOptions) -> Result<M, FileError>,
     options: LoadOptions,
-    loaded: Vec<(String, GridMap)>,
+    loaded: Vec<(String, M)>,
 }
 
-impl Maps<'_> {
-    fn get(&mut self, name: &str) -> Result<GridMap, FileError> {
+impl<M: Clone> Maps<'_, M> {
+    fn get(&mut self, name: &str) -> Result<M, FileError> {
         if let Some((_, map)) = self.loaded.iter().find(|(known, _)| known == name) {
             return Ok(map.clone());
         }
@@ -183,111 +213,47 @@ impl Maps<'_> {
 }
 
 /// A case of a list.
-fn case(
+fn case<C: Query>(
     top: &Table<'_>,
-    table: Table<'_>,
-    before: &[Case],
-    maps: &mut Maps<'_>,
-) -> Result<Case, FileError> {
+    table: &Table<'_>,
+    before: &[C],
+    maps: &mut Maps<'_, C::Map>,
+) -> Result<C, FileError> {
     let value = table.needed("name", "what the case is called")?;
     let name = value.string()?;
-    if before.iter().any(|case| case.name == name) {
+    if before.iter().any(|case| case.name() == name) {
         return Err(value.error("a name that no other case has"));
     }
     let Some(value) = table.get("follows") else {
-        return fresh(top, table, name.to_owned(), maps);
+        return C::fresh(top, table, name.to_owned(), maps);
     };
     let followed = value.string()?;
-    let follows = before.iter().position(|case| case.name == followed);
+    let follows = before.iter().position(|case| case.name() == followed);
     let follows = follows.ok_or_else(|| value.error("the name of an earlier case"))?;
-    for key in ["map", "moves", "radius"] {
+    for key in C::FIXED_KEYS {
         if let Some(odd) = table.get(key) {
             let expected =
                 format!("no \"{key}\" in a case that follows another: it has that one's");
             return Err(odd.error(expected));
         }
     }
-    let Case {
-        map,
-        radius,
-        problem,
-        ..
-    } = &before[follows];
-    let changes = changes(&table, &map.grid)?;
-    let problem = changed(&table, problem.clone(), &changes)?;
-    Ok(Case {
-        name: name.to_owned(),
-        map: map.clone(),
-        radius: *radius,
-        follows: Some(follows),
-        expected: expected(&table)?,
-        events: events(&table, &map.grid)?,
-        changes,
-        problem,
-    })
+    before[follows].followed(follows, table, name.to_owned())
 }
 
-/// A case that follows none; what it does not say, the top of the file says.
-fn fresh(
-    top: &Table<'_>,
-    table: Table<'_>,
-    name: String,
-    maps: &mut Maps<'_>,
-) -> Result<Case, FileError> {
-    let needed = |key, what| match table.get(key).or(top.get(key)) {
-        Some(value) => Ok(value),
-        None => table.needed(key, what),
-    };
-    let map = maps.get(needed("map", "a map's file name")?.string()?)?;
-    let size = (map.grid.width(), map.grid.height());
-    let start = needed("start", "a cell [x, y]")?.cell(size)?;
-    let goal = needed("goal", "a cell [x, y]")?.cell(size)?;
-    let names = Moves::ALL.map(|moves| (moves.name(), moves));
-    let moves = match one_of(&table, "moves", &names)? {
-        Some(moves) => moves,
-        None => one_of(top, "moves", &names)?.unwrap_or_default(),
-    };
-    let radius = match table.get("radius").or(top.get("radius")) {
-        Some(value) => value.amount("the robot's radius in cells")?,
-        None => 0.0,
-    };
-    let mut changes = changes(&table, &map.grid)?;
-    changes.retain(|c| !matches!(c, GridChange::StartMoved(_) | GridChange::GoalMoved(_)));
-    let problem = GridProblem::new(map.grid.clone(), start, goal)
-        .map_err(|error| table.error(error.to_string(), "a start and a goal in the map"))?;
-    let problem = changed(&table, problem.with_moves(moves), &changes)?;
-    Ok(Case {
-        name,
-        radius,
-        follows: None,
-        expected: expected(&table)?,
-        events: events(&table, &map.grid)?,
-        map,
-        changes,
-        problem,
-    })
-}
-
-fn changed(
+/// The events of a case; `changes` reads what one of them changes.
+fn events<C>(
     table: &Table<'_>,
-    mut problem: GridProblem,
-    changes: &[GridChange],
-) -> Result<GridProblem, FileError> {
-    let sense = |error: pf_core::InvalidProblem| table.error(error.to_string(), "sound changes");
-    problem.apply(changes).map_err(sense)?;
-    Ok(problem)
-}
-
-fn events(table: &Table<'_>, grid: &Grid) -> Result<Vec<Event>, FileError> {
-    let mut events: Vec<Event> = Vec::new();
+    keys: &[&str],
+    mut changes: impl FnMut(&Table<'_>) -> Result<Vec<C>, FileError>,
+) -> Result<Vec<Event<C>>, FileError> {
+    let mut events: Vec<Event<C>> = Vec::new();
     for table in table.tables("event")? {
-        let table =
-            table.with_keys(&["at", "name", "start", "goal", "blocked", "freed", "cost"])?;
+        let table = table.with_keys(&[&["at", "name"], keys].concat())?;
         let at = table.needed("at", "when it happens")?;
         let event = Event {
             at: at.amount("when it happens")?,
             name: table.string("name")?.map(str::to_owned),
-            changes: changes(&table, grid)?,
+            changes: changes(&table)?,
         };
         if let Some(last) = events.last()
             && event.at < last.at
@@ -295,59 +261,12 @@ fn events(table: &Table<'_>, grid: &Grid) -> Result<Vec<Event>, FileError> {
             return Err(at.error(format!("{} or later: events are in their order", last.at)));
         }
         if event.changes.is_empty() {
-            let expected = "one of start, goal, blocked, freed, cost";
+            let expected = format!("one of {}", keys.join(", "));
             return Err(table.error("an event without a change", expected));
         }
         events.push(event);
     }
     Ok(events)
-}
-
-/// Start, goal, blocked, freed, cost: in this order.
-fn changes(table: &Table<'_>, grid: &Grid) -> Result<Vec<GridChange>, FileError> {
-    let size = (grid.width(), grid.height());
-    let mut changes = Vec::new();
-    if let Some(value) = table.get("start") {
-        changes.push(GridChange::StartMoved(value.cell(size)?));
-    }
-    if let Some(value) = table.get("goal") {
-        changes.push(GridChange::GoalMoved(value.cell(size)?));
-    }
-    if let Some(value) = table.get("blocked") {
-        changes.push(GridChange::Blocked(value.cells(size)?));
-    }
-    if let Some(value) = table.get("freed") {
-        changes.push(GridChange::Freed(value.cells(size)?));
-    }
-    for cost in table.tables("cost")? {
-        let cost = cost.with_keys(&["value", "cells"])?;
-        let value = cost.needed("value", "what the cells cost: 1 to 254")?;
-        let number = u8::try_from(value.count("what the cells cost")?).unwrap_or(0);
-        if !(1..=254).contains(&number) {
-            return Err(value.error("what the cells cost: 1 to 254"));
-        }
-        let cells = cost
-            .needed("cells", "the cells that cost so much")?
-            .cells(size)?;
-        changes.push(GridChange::CostChanged(cells, number));
-    }
-    Ok(changes)
-}
-
-fn expected(table: &Table<'_>) -> Result<Option<Expected>, FileError> {
-    let tables = table.tables("expected")?;
-    let Some(expected) = tables.first() else {
-        return Ok(None);
-    };
-    let expected = expected.with_keys(&["straight", "diagonal", "printed"])?;
-    let steps = |key| {
-        let value = expected.needed(key, "so many steps of a shortest path")?;
-        value.count("so many steps").map(u64::from)
-    };
-    Ok(Some(Expected {
-        cost: GridCost::of_steps(steps("straight")?, steps("diagonal")?),
-        printed: expected.string("printed")?.map(str::to_owned),
-    }))
 }
 
 /// A word out of a list, if the key is there.

@@ -5,12 +5,18 @@ use crate::{
     error::quoted,
     source::{Source, place_of},
 };
+use pf_geom::Point;
 use pf_grid::Cell;
 use std::ops::Range;
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
 };
+
+/// The largest coordinate of a world; squares and products of such are far from overflowing.
+pub(crate) const LARGEST: f64 = 1e12;
+/// What is said of a number that is larger, infinite or none at all.
+pub(crate) const A_NUMBER: &str = "a number between -1e12 and 1e12";
 
 /// A file and its text.
 #[derive(Clone, Copy, Debug)]
@@ -36,14 +42,15 @@ pub(crate) struct Value<'a> {
 }
 
 impl<'a> File<'a> {
-    pub(crate) fn parse(&self) -> Result<Spanned<DeTable<'a>>, FileError> {
+    /// The content; `expected` says what the file should be.
+    pub(crate) fn parse(&self, expected: &str) -> Result<Spanned<DeTable<'a>>, FileError> {
         DeTable::parse(self.text).map_err(|error| {
             let place = error
                 .span()
                 .map_or(Place::Whole, |span| self.place(span.start));
             let message = error.message().lines().next().unwrap_or("");
             let found = format!("broken TOML ({message})");
-            self.source.error(place, found, "a scenario file")
+            self.source.error(place, found, expected)
         })
     }
 
@@ -61,6 +68,11 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Where it begins, to tell which of two tables comes first.
+    pub(crate) fn offset(&self) -> usize {
+        self.span.0
+    }
+
     /// Refuses every key that is not among `keys`.
     pub(crate) fn with_keys(self, keys: &[&str]) -> Result<Self, FileError> {
         // Tables are sorted by key: the first unknown one by place is the one to name.
@@ -71,13 +83,8 @@ impl<'a> Table<'a> {
         let Some(key) = unknown.min_by_key(|key| key.span().start) else {
             return Ok(self);
         };
-        let near = keys
-            .iter()
-            .map(|known| (strsim::damerau_levenshtein(known, key.get_ref()), *known))
-            .min()
-            .filter(|(distance, _)| *distance <= 2);
-        let expected = match near {
-            Some((_, known)) => format!("\"{known}\""),
+        let expected = match nearest(key.get_ref(), keys.iter().copied()) {
+            Some(known) => format!("\"{known}\""),
             None => format!("one of {}", keys.join(", ")),
         };
         let place = self.file.place(key.span().start);
@@ -98,6 +105,17 @@ impl<'a> Table<'a> {
     /// A string, if the key is there.
     pub(crate) fn string(&self, key: &str) -> Result<Option<&'a str>, FileError> {
         self.get(key).map(|value| value.string()).transpose()
+    }
+
+    /// What something is called, if it has a name.
+    pub(crate) fn name(&self) -> Result<Option<String>, FileError> {
+        let Some(value) = self.get("name") else {
+            return Ok(None);
+        };
+        match value.string()? {
+            "" => Err(value.error("a name, not an empty string")),
+            name => Ok(Some(name.to_owned())),
+        }
     }
 
     /// Tables under a key: one, several or none.
@@ -139,7 +157,7 @@ impl<'a> Value<'a> {
         self.content.as_str().ok_or_else(|| self.error("a string"))
     }
 
-    fn table(&self) -> Result<Table<'a>, FileError> {
+    pub(crate) fn table(&self) -> Result<Table<'a>, FileError> {
         let entries = self
             .content
             .as_table()
@@ -151,11 +169,55 @@ impl<'a> Value<'a> {
         })
     }
 
-    fn array(&self, of: &str) -> Result<impl Iterator<Item = Value<'a>> + use<'a>, FileError> {
+    pub(crate) fn array(&self, of: &str) -> Result<impl Iterator<Item = Value<'a>> + use<'a>, FileError> {
         let expected = || self.error(format!("an array of {of}"));
         let array = self.content.as_array().ok_or_else(expected)?;
         let file = self.file;
         Ok(array.iter().map(move |value| Value::new(file, value)))
+    }
+
+    /// A coordinate or a size in a world, whole or not.
+    pub(crate) fn number(&self, what: &str) -> Result<f64, FileError> {
+        let number = match self.content {
+            DeValue::Integer(n) if n.radix() == 10 => n.as_str().parse().ok(),
+            DeValue::Integer(n) => u32::from_str_radix(n.as_str(), n.radix())
+                .ok()
+                .map(f64::from),
+            DeValue::Float(n) => n.as_str().parse().ok(),
+            _ => None,
+        };
+        number
+            .filter(|n: &f64| n.abs() <= LARGEST)
+            .ok_or_else(|| self.error(format!("{what}: {A_NUMBER}")))
+    }
+
+    /// A number from 0 in a world, whole or not.
+    pub(crate) fn size(&self, what: &str) -> Result<f64, FileError> {
+        let number = self.number(what)?;
+        if number >= 0.0 {
+            return Ok(number);
+        }
+        Err(self.error(format!("{what}: a number from 0")))
+    }
+
+    /// A point `[x, y]` of a world.
+    pub(crate) fn point(&self, what: &str) -> Result<Point, FileError> {
+        match self.content.as_array() {
+            Some(numbers) if numbers.len() == 2 => {
+                let mut numbers = numbers.iter().map(|n| Value::new(self.file, n));
+                let mut next = || numbers.next().map_or(Ok(0.0), |n| n.number(what));
+                Ok(Point::new(next()?, next()?))
+            }
+            _ => Err(self.error(format!("{what}: a point [x, y]"))),
+        }
+    }
+
+    /// A whole number from 0 that counts things in memory.
+    pub(crate) fn index(&self) -> Option<usize> {
+        match self.content {
+            DeValue::Integer(n) => usize::from_str_radix(n.as_str(), n.radix()).ok(),
+            _ => None,
+        }
     }
 
     /// A number from 0, whole or not.
@@ -225,4 +287,11 @@ impl<'a> Value<'a> {
         }
         Err(self.error(format!("cells inside the map of {} x {}", size.0, size.1)))
     }
+}
+
+/// The one of `known` that someone who wrote `word` may have meant.
+pub(crate) fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> Option<&'k str> {
+    let by_distance = known.map(|known| (strsim::damerau_levenshtein(known, word), known));
+    let (distance, nearest) = by_distance.min()?;
+    (distance <= 2).then_some(nearest)
 }

@@ -24,13 +24,22 @@
 //! assert!(picture.svg().starts_with("<svg "));
 //! assert!(picture.png().unwrap().starts_with(b"\x89PNG"));
 //! ```
+//!
+//! Which way is up is decided by what a picture is of. One of a grid ([`Picture::of`]) has cells for
+//! units and y running down, as the rows of its file do; one of a world ([`Picture::of_world`]) has
+//! the world's units and y running up, as in mathematics. So a path that was found in a world made
+//! from a grid is drawn on the grid, and cells made from a world are drawn on the world
+//! ([`Picture::rasterised`]).
 
 mod cells;
+mod frame;
+mod page;
 mod palette;
 mod picture;
 mod png;
 mod recorder;
 mod svg;
+mod world;
 
 pub use picture::{Line, Picture};
 pub use png::NoPicture;

@@ -26,3 +26,9 @@ pub(crate) const TERRAIN: [&str; 6] = [
 pub(crate) const HEAT: [&str; 8] = [
     "#e8f4fb", "#d3eaf8", "#bce0f4", "#a3d3ee", "#88c4e6", "#6cb2da", "#4f9dca", "#3586b6",
 ];
+
+/// Clearance along a path from the least to the greatest.
+pub(crate) const CLEARANCE: [&str; 5] = ["#d55e00", "#e69f00", "#f0e442", "#56b4e9", "#0072b2"];
+
+/// What a planner knows, below what it found.
+pub(crate) const THREAD: &str = "#4f9dca";

@@ -1,9 +1,11 @@
 use crate::{
     cells::Raster,
+    frame::Frame,
     palette,
     png::{self, NoPicture},
     svg,
 };
+use pf_geom::Shape;
 use pf_grid::{Cell, Grid, GridChange};
 
 /// How a line is drawn.
@@ -16,20 +18,41 @@ pub enum Line {
     Dashed,
 }
 
-/// One thing to draw, in the map's units (cells, from the upper left corner).
+/// One thing to draw, in the map's units.
 #[derive(Clone, Debug)]
 pub(crate) enum Layer {
-    /// Rectangles as path data, in blocks of so many cells.
+    /// Rectangles as path data in blocks; where the first block's first corner is and how long a
+    /// block's side is.
     Cells {
         data: String,
-        block: u32,
+        corner: [f64; 2],
+        side: f64,
         fill: &'static str,
         opacity: f64,
+    },
+    /// Shapes, grown by a margin.
+    Shapes {
+        shapes: Vec<Shape>,
+        grown: f64,
+        fill: &'static str,
+        opacity: f64,
+    },
+    /// Thin lines.
+    Threads(Vec<[[f64; 2]; 2]>),
+    /// Small dots.
+    Dots {
+        points: Vec<[f64; 2]>,
+        colour: &'static str,
     },
     Line {
         points: Vec<[f64; 2]>,
         colour: &'static str,
         line: Line,
+    },
+    /// A wide line below those that are paths.
+    Band {
+        lines: Vec<Vec<[f64; 2]>>,
+        colour: &'static str,
     },
     /// What a robot of this radius sweeps on its way.
     Swath {
@@ -41,11 +64,24 @@ pub(crate) enum Layer {
     Goal([f64; 2]),
 }
 
+/// Where cells lie in the map's units.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Lattice {
+    /// The corner of the first cell with the least coordinates.
+    pub(crate) corner: [f64; 2],
+    /// The side of a cell.
+    pub(crate) side: f64,
+    /// Columns and rows.
+    pub(crate) size: [u32; 2],
+}
+
 /// What the legend shows beside a word.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Key {
     Cells(&'static str, f64),
     Line(&'static str, Line),
+    Thread,
+    Dot(&'static str),
     Start,
     Goal,
 }
@@ -53,7 +89,9 @@ pub(crate) enum Key {
 /// A picture of a map and what happened on it.
 #[derive(Clone, Debug)]
 pub struct Picture {
-    pub(crate) size: [u32; 2],
+    pub(crate) frame: Frame,
+    /// Where the cells lie that are drawn.
+    pub(crate) lattice: Lattice,
     pub(crate) layers: Vec<Layer>,
     pub(crate) legend: Vec<(Key, String)>,
     pub(crate) caption: Vec<String>,
@@ -61,11 +99,21 @@ pub struct Picture {
 }
 
 impl Picture {
-    /// An empty picture of so many units in width and height.
+    /// An empty picture of so many cells in width and height; y runs down.
     #[must_use]
     pub fn new(width: u32, height: u32) -> Self {
-        Self {
+        let lattice = Lattice {
+            corner: [0.0, 0.0],
+            side: 1.0,
             size: [width, height],
+        };
+        Self::within(Frame::of_cells(width, height), lattice)
+    }
+
+    pub(crate) fn within(frame: Frame, lattice: Lattice) -> Self {
+        Self {
+            frame,
+            lattice,
             layers: Vec::new(),
             legend: Vec::new(),
             caption: Vec::new(),
@@ -255,23 +303,31 @@ impl Picture {
         palette::PATHS[self.paths % palette::PATHS.len()]
     }
 
-    fn raster(&self) -> Raster {
-        Raster::new(self.size[0], self.size[1])
+    pub(crate) fn raster(&self) -> Raster {
+        let [width, height] = self.lattice.size;
+        Raster::new(width, height)
     }
 
-    fn push_cells(&mut self, raster: &Raster, shade: u8, fill: &'static str, opacity: f64) {
+    pub(crate) fn push_cells(
+        &mut self,
+        raster: &Raster,
+        shade: u8,
+        fill: &'static str,
+        opacity: f64,
+    ) {
         let data = raster.rectangles(shade);
         if !data.is_empty() {
             self.layers.push(Layer::Cells {
                 data,
-                block: raster.block,
+                corner: self.lattice.corner,
+                side: self.lattice.side * f64::from(raster.block),
                 fill,
                 opacity,
             });
         }
     }
 
-    fn key(mut self, key: Key, words: &str) -> Self {
+    pub(crate) fn key(mut self, key: Key, words: &str) -> Self {
         let entry = (key, words.to_owned());
         if !words.is_empty() && !self.legend.contains(&entry) {
             self.legend.push(entry);
@@ -284,7 +340,7 @@ fn centre(cell: Cell) -> [f64; 2] {
     [f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5]
 }
 
-fn cells([x, y]: [u32; 2], [width, height]: [u32; 2]) -> impl Iterator<Item = Cell> {
+pub(crate) fn cells([x, y]: [u32; 2], [width, height]: [u32; 2]) -> impl Iterator<Item = Cell> {
     (y..y + height).flat_map(move |y| (x..x + width).map(move |x| Cell { x, y }))
 }
 
@@ -295,7 +351,7 @@ fn cells([x, y]: [u32; 2], [width, height]: [u32; 2]) -> impl Iterator<Item = Ce
     clippy::cast_precision_loss,
     reason = "a handful of bins"
 )]
-fn bin(part: f64, bins: usize) -> u8 {
+pub(crate) fn bin(part: f64, bins: usize) -> u8 {
     (part * bins as f64).clamp(0.0, bins as f64 - 1.0) as u8
 }
 

@@ -1,4 +1,5 @@
 use pf_core::{Event, Trace};
+use pf_geom::{Point, WorldProblem};
 use pf_grid::{Cell, GridProblem};
 
 /// Listens to a search and keeps what a picture can show of it.
@@ -16,6 +17,8 @@ use pf_grid::{Cell, GridProblem};
 #[derive(Clone, Debug, Default)]
 pub struct Recorder {
     expanded: Vec<Cell>,
+    reached: Vec<[f64; 2]>,
+    pieces: Vec<[[f64; 2]; 2]>,
 }
 
 impl Recorder {
@@ -25,9 +28,24 @@ impl Recorder {
         &self.expanded
     }
 
+    /// The points of a world in the order they were expanded.
+    #[must_use]
+    pub fn reached(&self) -> &[[f64; 2]] {
+        &self.reached
+    }
+
+    /// The straight pieces of a world that a planner knows to be free: what it shows as two points
+    /// called `free piece`.
+    #[must_use]
+    pub fn pieces(&self) -> &[[[f64; 2]; 2]] {
+        &self.pieces
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.expanded.clear();
+        self.reached.clear();
+        self.pieces.clear();
     }
 }
 
@@ -35,6 +53,20 @@ impl Trace<GridProblem> for Recorder {
     fn event(&mut self, event: &Event<'_, GridProblem>) {
         if let &Event::Expanded(&cell) = event {
             self.expanded.push(cell);
+        }
+    }
+}
+
+impl Trace<WorldProblem> for Recorder {
+    fn event(&mut self, event: &Event<'_, WorldProblem>) {
+        let pair = |p: &Point| [p.x, p.y];
+        match event {
+            Event::Expanded(point) => self.reached.push(pair(point)),
+            Event::Points {
+                name: "free piece",
+                at: [a, b],
+            } => self.pieces.push([pair(a), pair(b)]),
+            _ => {}
         }
     }
 }

@@ -1,65 +1,17 @@
 //! The picture as text.
 
 use crate::{
-    Line, Picture, palette,
+    Line, Picture,
+    page::{MARGIN, Page, short},
+    palette,
     picture::{Key, Layer},
 };
+use pf_geom::Shape;
 use std::fmt::Write;
 
-/// The longer side of the map, in pixels, as far as whole pixels per cell allow.
-const SIDE: f64 = 1024.0;
-/// Cells of a small map do not grow beyond this.
-const LARGEST_CELL: f64 = 32.0;
-const MARGIN: f64 = 16.0;
-/// Room for the caption, however narrow the map.
-const NARROWEST: f64 = 560.0;
 const LINE_HEIGHT: f64 = 20.0;
 const TITLE: f64 = 15.0;
 const FONT: f64 = 13.0;
-
-/// Where things lie on the page, in pixels.
-struct Page {
-    /// Pixels per cell.
-    scale: f64,
-    map: [f64; 2],
-    width: f64,
-}
-
-impl Page {
-    fn of(picture: &Picture) -> Self {
-        let [width, height] = picture.size.map(f64::from);
-        let fit = SIDE / width.max(height);
-        let scale = if fit < 1.0 {
-            fit
-        } else {
-            fit.round().min(LARGEST_CELL)
-        };
-        let map = [width * scale, height * scale];
-        Self {
-            scale,
-            map,
-            width: (map[0] + 2.0 * MARGIN).max(NARROWEST).ceil(),
-        }
-    }
-
-    /// The map's left edge: centred on the page.
-    fn left(&self) -> f64 {
-        ((self.width - self.map[0]) / 2.0).floor()
-    }
-
-    fn place(&self, p: [f64; 2]) -> [f64; 2] {
-        [p[0] * self.scale, p[1] * self.scale]
-    }
-
-    /// A line's width: visible on any map, slim on a small one.
-    fn pen(&self) -> f64 {
-        (self.scale * 0.25).clamp(2.5, 6.0)
-    }
-
-    fn marker(&self) -> f64 {
-        (self.scale * 0.36).clamp(8.0, 12.0)
-    }
-}
 
 pub(crate) fn write(picture: &Picture) -> String {
     let page = Page::of(picture);
@@ -101,18 +53,20 @@ fn map(out: &mut String, picture: &Picture, page: &Page) {
     );
     // Markers stand over lines, lines over cells, whatever the order they came in.
     let rank = |layer: &&Layer| match layer {
-        Layer::Cells { .. } => 0,
-        Layer::Swath { .. } => 1,
-        Layer::Line { .. } => 2,
-        Layer::Start(_) | Layer::Goal(_) => 3,
+        Layer::Cells { .. } | Layer::Shapes { .. } => 0,
+        Layer::Threads(_) | Layer::Dots { .. } => 1,
+        Layer::Swath { .. } => 2,
+        Layer::Band { .. } => 3,
+        Layer::Line { .. } => 4,
+        Layer::Start(_) | Layer::Goal(_) => 5,
     };
     let mut layers: Vec<_> = picture.layers.iter().collect();
     layers.sort_by_key(rank);
     let mut markers = String::new();
     for layer in layers {
         match layer {
-            Layer::Start(p) => start(&mut markers, page.place(*p), page.marker()),
-            Layer::Goal(p) => goal(&mut markers, page.place(*p), page.marker()),
+            Layer::Start(p) => start(&mut markers, page.place(*p), page.marker),
+            Layer::Goal(p) => goal(&mut markers, page.place(*p), page.marker),
             other => draw(out, page, other),
         }
     }
@@ -132,14 +86,58 @@ fn draw(out: &mut String, page: &Page, layer: &Layer) {
     match layer {
         Layer::Cells {
             data,
-            block,
+            corner,
+            side,
             fill,
             opacity,
         } => {
-            let scale = page.scale * f64::from(*block);
+            let ([x, y], side) = (page.place(*corner), page.scale * side);
+            let place = match (page.up(), x == 0.0 && y == 0.0) {
+                (true, _) => format!("translate({x} {y}) scale({side} -{side})"),
+                (false, false) => format!("translate({x} {y}) scale({side})"),
+                (false, true) => format!("scale({side})"),
+            };
             let _ = writeln!(
                 out,
-                r#"<path transform="scale({scale})" shape-rendering="crispEdges" fill="{fill}" opacity="{opacity}" d="{data}"/>"#,
+                r#"<path transform="{place}" shape-rendering="crispEdges" fill="{fill}" opacity="{opacity}" d="{data}"/>"#,
+            );
+        }
+        Layer::Shapes {
+            shapes,
+            grown,
+            fill,
+            opacity,
+        } => {
+            // A little rim keeps the smallest shapes visible; a wide one grows all by the margin.
+            let width = short(2.0 * grown * page.scale).max(0.5);
+            let data = outlines(page, shapes);
+            let _ = writeln!(
+                out,
+                r#"<path fill="{fill}" stroke="{fill}" stroke-width="{width}" stroke-linejoin="round" opacity="{opacity}" d="{data}"/>"#,
+            );
+        }
+        Layer::Threads(pieces) => {
+            let mut data = String::new();
+            for piece in pieces {
+                let [[ax, ay], [bx, by]] = piece.map(|p| page.place(p).map(short));
+                let _ = write!(data, "M{ax} {ay}L{bx} {by}");
+            }
+            let _ = writeln!(
+                out,
+                r#"<path fill="none" stroke="{}" stroke-width="0.8" stroke-opacity="0.55" d="{data}"/>"#,
+                palette::THREAD
+            );
+        }
+        Layer::Dots { points, colour } => dots(out, page, points, colour),
+        Layer::Band { lines, colour } => {
+            let mut data = String::new();
+            for line in lines {
+                let _ = write!(data, "M{}", polyline(page, line));
+            }
+            let width = short(page.pen * 2.6);
+            let _ = writeln!(
+                out,
+                r#"<path fill="none" stroke="{colour}" stroke-width="{width}" stroke-linejoin="round" d="{data}"/>"#
             );
         }
         Layer::Swath {
@@ -158,18 +156,63 @@ fn draw(out: &mut String, page: &Page, layer: &Layer) {
             points,
             colour,
             line,
-        } => {
-            let (pen, points) = (page.pen(), polyline(page, points));
-            let (dashes, pen) = (dashes(*line, pen), short(pen));
-            let halo = short(page.pen() + 2.0);
-            // A white rim keeps the line readable on dark cells.
-            let _ = writeln!(
-                out,
-                r##"<g fill="none" stroke-linejoin="round" stroke-linecap="round"><polyline stroke="#fff" stroke-opacity="0.8" stroke-width="{halo}" points="{points}"/><polyline stroke="{colour}" stroke-width="{pen}"{dashes} points="{points}"/></g>"##
-            );
-        }
+        } => path(out, page, points, colour, *line),
         Layer::Start(_) | Layer::Goal(_) => {}
     }
+}
+
+/// A path with a white rim, which keeps it readable on dark ground.
+fn path(out: &mut String, page: &Page, points: &[[f64; 2]], colour: &str, line: Line) {
+    let (pen, points) = (page.pen, polyline(page, points));
+    let (dashes, pen) = (dashes(line, pen), short(pen));
+    let halo = short(page.pen + 2.0);
+    let _ = writeln!(
+        out,
+        r##"<g fill="none" stroke-linejoin="round" stroke-linecap="round"><polyline stroke="#fff" stroke-opacity="0.8" stroke-width="{halo}" points="{points}"/><polyline stroke="{colour}" stroke-width="{pen}"{dashes} points="{points}"/></g>"##
+    );
+}
+
+fn dots(out: &mut String, page: &Page, points: &[[f64; 2]], colour: &str) {
+    let mut data = String::new();
+    for &point in points {
+        let [x, y] = page.place(point).map(short);
+        let _ = write!(data, "M{x} {y}h0");
+    }
+    let _ = writeln!(
+        out,
+        r#"<path fill="none" stroke="{colour}" stroke-width="5" stroke-linecap="round" d="{data}"/>"#
+    );
+}
+
+/// The borders of shapes, all in one direction, so that where two overlap nothing is left out.
+fn outlines(page: &Page, shapes: &[Shape]) -> String {
+    let mut data = String::new();
+    for shape in shapes {
+        match shape {
+            Shape::Circle(circle) => {
+                let centre = circle.centre();
+                let [x, y] = page.place([centre.x, centre.y]);
+                let r = circle.radius() * page.scale;
+                let (left, y, turn) = (short(x - r), short(y), u8::from(!page.up()));
+                let (r, width) = (short(r), short(2.0 * r));
+                let _ = write!(
+                    data,
+                    "M{left} {y}a{r} {r} 0 1 {turn} {width} 0a{r} {r} 0 1 {turn} -{width} 0z"
+                );
+            }
+            Shape::Rectangle(rectangle) => outline(&mut data, page, &rectangle.corners()),
+            Shape::Polygon(polygon) => outline(&mut data, page, polygon.corners()),
+        }
+    }
+    data
+}
+
+fn outline(data: &mut String, page: &Page, corners: &[pf_geom::Point]) {
+    for (k, corner) in corners.iter().enumerate() {
+        let [x, y] = page.place([corner.x, corner.y]).map(short);
+        let _ = write!(data, "{}{x} {y}", if k == 0 { "M" } else { "L" });
+    }
+    data.push('z');
 }
 
 fn polyline(page: &Page, points: &[[f64; 2]]) -> String {
@@ -226,28 +269,14 @@ fn goal(out: &mut String, [x, y]: [f64; 2], size: f64) {
     );
 }
 
-/// The scale's length in cells: one, two or five times a power of ten.
-fn scale_cells(page: &Page) -> f64 {
-    let limit = (page.map[0] / page.scale / 4.0).max(1.0);
-    let mut cells = 1.0;
-    for step in [2.0, 2.5, 2.0].into_iter().cycle() {
-        if cells * step > limit {
-            break;
-        }
-        cells *= step;
-    }
-    cells
-}
-
 /// The scale, to the right.
 fn scale_bar(out: &mut String, page: &Page, top: f64) {
-    let cells = scale_cells(page);
-    let (right, length) = (page.width - MARGIN, short(cells * page.scale));
+    let (right, length) = (page.width - MARGIN, short(page.bar()));
     let (x, y, below) = (short(right - length), top - 2.0, top + 18.0);
-    let noun = if cells > 1.5 { "cells" } else { "cell" };
+    let words = page.frame.words(page.frame.scale());
     let _ = writeln!(
         out,
-        r#"<path d="M{x} {y}v5h{length}v-5" fill="none" stroke="{}" stroke-width="1.5"/><text x="{right}" y="{below}" text-anchor="end">{cells} {noun}</text>"#,
+        r#"<path d="M{x} {y}v5h{length}v-5" fill="none" stroke="{}" stroke-width="1.5"/><text x="{right}" y="{below}" text-anchor="end">{words}</text>"#,
         palette::TEXT,
     );
 }
@@ -255,8 +284,7 @@ fn scale_bar(out: &mut String, page: &Page, top: f64) {
 /// Swatches and words, in as many lines as they need; returns where it ends.
 fn legend(out: &mut String, picture: &Picture, page: &Page, top: f64) -> f64 {
     // The scale bar stands to the right.
-    let bar = scale_cells(page) * page.scale;
-    let right = page.width - MARGIN - bar.max(70.0);
+    let right = page.width - MARGIN - page.bar().max(70.0);
     let (mut x, mut y) = (MARGIN, top);
     for (key, words) in &picture.legend {
         let width = 28.0 + text_width(words, FONT);
@@ -295,6 +323,21 @@ fn swatch(out: &mut String, key: Key, [x, y]: [f64; 2]) {
                 out,
                 r#"<path d="M{} {y}h20" stroke="{colour}" stroke-width="3"{dashes}/>"#,
                 x + 1.0
+            );
+        }
+        Key::Thread => {
+            let _ = write!(
+                out,
+                r#"<path d="M{} {y}h20" stroke="{}" stroke-width="1"/>"#,
+                x + 1.0,
+                palette::THREAD
+            );
+        }
+        Key::Dot(colour) => {
+            let _ = write!(
+                out,
+                r#"<circle cx="{}" cy="{y}" r="2.5" fill="{colour}"/>"#,
+                x + 11.0
             );
         }
         Key::Start => start(out, [x + 11.0, y], 7.0),
@@ -340,11 +383,6 @@ fn text_width(text: &str, size: f64) -> f64 {
     size * text.chars().map(width).sum::<f64>()
 }
 
-/// Two decimals are finer than any pixel.
-fn short(x: f64) -> f64 {
-    (x * 100.0).round() / 100.0
-}
-
 /// Text as XML may hold it; characters XML has no place for are left out.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
@@ -364,18 +402,6 @@ fn escaped(text: &str) -> String {
 mod tests {
     use super::*;
     use pf_grid::{Cell, Grid};
-
-    fn size_of(width: u32, height: u32) -> [f64; 2] {
-        Page::of(&Picture::new(width, height)).map
-    }
-
-    #[test]
-    fn small_maps_are_enlarged_and_large_ones_fit_the_screen() {
-        let same = |a: [f64; 2], b: [f64; 2]| a.map(f64::to_bits) == b.map(f64::to_bits);
-        assert!(same(size_of(20, 20), [640.0, 640.0]));
-        assert!(same(size_of(512, 256), [1024.0, 512.0]));
-        assert!(same(size_of(4096, 4096), [1024.0, 1024.0]));
-    }
 
     #[test]
     fn a_large_map_makes_a_small_file() {

@@ -1,7 +1,10 @@
 //! What a shortest path bends around: the discs that obstacles and robot make together.
 
 use crate::{Point, Segment, Shape, ShapeId, Vector, World, cross, shape::turn};
-use std::f64::consts::{PI, TAU};
+use std::{
+    f64::consts::{PI, TAU},
+    ops::Range,
+};
 
 /// Angles closer than this are one.
 pub(super) const SAME_ANGLE: f64 = 1e-9;
@@ -101,6 +104,50 @@ impl Disc {
     }
 }
 
+/// The discs of one obstacle, and a circle that holds them all.
+#[derive(Clone, Debug)]
+pub(super) struct Group {
+    pub(super) discs: Range<usize>,
+    centre: Point,
+    reach: f64,
+}
+
+impl Group {
+    /// The group of the last discs of a list.
+    pub(super) fn of(discs: &[Disc], range: Range<usize>) -> Option<Self> {
+        let first = discs.get(range.start)?.centre;
+        let members = &discs[range.clone()];
+        let (min, max) = members.iter().fold((first, first), |(min, max), disc| {
+            (min.inf(&disc.centre), max.sup(&disc.centre))
+        });
+        let centre = nalgebra::center(&min, &max);
+        let reach = |disc: &Disc| (disc.centre - centre).norm() + disc.radius;
+        let reach = members.iter().map(reach).fold(0.0, f64::max);
+        Some(Self {
+            discs: range,
+            centre,
+            reach,
+        })
+    }
+
+    /// Whether some tangent may lead here that leaves `from` going round it one way: a cheap test
+    /// that errs on the side of yes.
+    #[inline]
+    pub(super) fn is_ahead_of(&self, from: &Disc, out: Turn) -> bool {
+        let Some((first, last)) = from.cone else {
+            return true;
+        };
+        // Headings are a quarter turn ahead of the normals, so their wedge is the cone, turned.
+        let quarter = |v: Vector| Vector::new(-v.y, v.x) * out.sign();
+        let (first, last) = (quarter(first), quarter(last));
+        let apart = self.centre - from.centre;
+        let slack = -(self.reach + from.radius) * (1.0 + 1e-9) - f64::MIN_POSITIVE;
+        cross(first, apart) >= slack
+            && cross(apart, last) >= slack
+            && (first + last).dot(&apart) >= 2.0 * slack
+    }
+}
+
 /// The straight way from one disc to another that touches both.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Tangent {
@@ -120,6 +167,21 @@ impl Tangent {
         // With u the heading and m its right-hand normal, the contacts lie at out * m and into * m,
         // and the centres are this far apart along m.
         let offset = out.sign() * from.radius - into.sign() * to.radius;
+        if offset == 0.0 {
+            // The contacts lie square to the way between the centres: most pairs are out of the
+            // question at once, without a root.
+            let square = Vector::new(apart.y, -apart.x);
+            let slack = -SAME_ANGLE * 2.0 * (apart.x.abs() + apart.y.abs());
+            let faces = |disc: &Disc, turn: Turn| {
+                disc.cone.is_none_or(|(first, last)| {
+                    let sign = turn.sign();
+                    sign * cross(first, square) >= slack && sign * cross(square, last) >= slack
+                })
+            };
+            if !faces(to, into) || !faces(from, out) {
+                return None;
+            }
+        }
         let mut rest = square - offset * offset;
         if rest < 0.0 {
             // Discs that touch, but for rounding.
@@ -196,8 +258,18 @@ impl Room {
             }
         }
         let at = |angle: f64| disc.centre + Vector::new(angle.cos(), angle.sin()) * disc.radius;
+        let angle_of = |v: Vector| v.y.atan2(v.x);
+        // Beyond the cone of a corner the disc lies within its own obstacle.
+        let middle = disc.cone.map_or(0.0, |(from, to)| angle_of(from + to));
         if events.is_empty() {
-            return if free(at(0.0)) { Self::All } else { Self::None };
+            return if free(at(middle)) {
+                Self::All
+            } else {
+                Self::None
+            };
+        }
+        if let Some((from, to)) = disc.cone {
+            events.extend([angle_of(from), angle_of(to)]);
         }
         events.sort_by(f64::total_cmp);
         events.push(events[0] + TAU);

@@ -11,8 +11,8 @@
 mod disc;
 mod route;
 
-use crate::{Point, Segment, Vector, WorldProblem, cross};
-use disc::{Disc, Room, SAME_ANGLE, Tangent, Turn, discs};
+use crate::{Point, Segment, ShapeId, Vector, WorldProblem, cross};
+use disc::{Disc, Group, Room, SAME_ANGLE, Tangent, Turn, discs};
 use pf_core::{Context, Stamp};
 pub use route::{Bend, Route};
 use std::{cmp::Ordering, collections::BinaryHeap};
@@ -23,8 +23,12 @@ pub struct TangentGraph {
     /// The world and the robot's radius.
     of: Option<(Stamp, f64)>,
     discs: Vec<Disc>,
+    /// The discs by obstacle.
+    groups: Vec<Group>,
     /// By disc; unknown until asked for.
     rooms: Vec<Option<Room>>,
+    /// By disc, and last for the start: what was last in the way. Often it is again.
+    in_the_way: Vec<[ShapeId; 2]>,
     /// By node: disc and turn. Unknown until the node is first expanded.
     edges: Vec<Option<Vec<Edge>>>,
     /// From where the start's edges are.
@@ -147,6 +151,15 @@ impl TangentGraph {
         Answer::Nothing
     }
 
+    /// Forgets which straight pieces are free, so that the next query takes as many iterations as
+    /// if it were the first.
+    pub fn forget(&mut self) {
+        let edges = self.edges.iter_mut().flatten().flatten();
+        for edge in edges.chain(&mut self.start_edges) {
+            edge.free = None;
+        }
+    }
+
     /// How many bends a path could have: corners and round obstacles.
     #[must_use]
     pub fn len(&self) -> usize {
@@ -180,12 +193,19 @@ impl TangentGraph {
         if self.of != of {
             self.of = of;
             self.discs.clear();
+            self.groups.clear();
             for (id, shape) in problem.world().shapes() {
+                let first = self.discs.len();
                 discs(id, shape, problem.radius(), &mut self.discs);
+                let range = first..self.discs.len();
+                self.groups.extend(Group::of(&self.discs, range));
             }
             let nodes = 2 * self.discs.len();
             self.rooms.clear();
             self.rooms.resize(self.discs.len(), None);
+            self.in_the_way.clear();
+            self.in_the_way
+                .resize(self.discs.len() + 1, [ShapeId::MAX; 2]);
             self.edges.clear();
             self.edges.resize(nodes, None);
             self.settled.iter_mut().for_each(Vec::clear);
@@ -204,7 +224,7 @@ impl TangentGraph {
         if self.start != Some(start) {
             self.start = Some(start);
             let from = Disc::point(start);
-            self.start_edges = tangents(&self.discs, &from, Turn::Left).collect();
+            self.start_edges = tangents(&self.discs, &self.groups, &from, Turn::Left).collect();
         }
     }
 
@@ -223,19 +243,22 @@ impl TangentGraph {
 
     /// Goes the way to its end, if it is free and better than those that were there before.
     fn follow(&mut self, problem: &WorldProblem, way: &Candidate) -> Option<Label> {
-        let (from, edge) = if way.parent == START {
-            let from = Disc::point(problem.start());
-            (from, self.start_edges.get_mut(way.edge as usize)?)
+        let start;
+        let (from, in_the_way, edge) = if way.parent == START {
+            start = Disc::point(problem.start());
+            let last = self.discs.len();
+            let edge = self.start_edges.get_mut(way.edge as usize)?;
+            (&start, &mut self.in_the_way[last], edge)
         } else {
             let node = self.labels[way.parent as usize].node as usize;
-            let from = self.discs[node / 2].clone();
-            (from, self.edges[node].as_mut()?.get_mut(way.edge as usize)?)
+            let edge = self.edges[node].as_mut()?.get_mut(way.edge as usize)?;
+            let disc = node / 2;
+            (&self.discs[disc], &mut self.in_the_way[disc], edge)
         };
         let to = &self.discs[edge.to as usize / 2];
-        let free = *edge.free.get_or_insert_with(|| {
-            let piece = edge.tangent.segment(&from, to);
-            problem.world().is_free(&piece, problem.radius())
-        });
+        let free = *edge
+            .free
+            .get_or_insert_with(|| is_free(problem, &edge.tangent.segment(from, to), in_the_way));
         let edge = *edge;
         let label = Label {
             node: edge.to,
@@ -289,7 +312,7 @@ impl TangentGraph {
         self.touched.push(label.node);
         let (disc, turn) = (&self.discs[node / 2], turn_of(label.node));
         if self.edges[node].is_none() {
-            self.edges[node] = Some(tangents(&self.discs, disc, turn).collect());
+            self.edges[node] = Some(tangents(&self.discs, &self.groups, disc, turn).collect());
         }
         if let Some(tangent) = Tangent::between(disc, turn, target, Turn::Left)
             && let Some(arc) = self.round(label.node, label.arriving, tangent.leaving)
@@ -346,17 +369,41 @@ impl TangentGraph {
     }
 }
 
+/// Whether the robot can go along a piece; what was in the way last is looked at first.
+fn is_free(problem: &WorldProblem, piece: &Segment, in_the_way: &mut [ShapeId; 2]) -> bool {
+    let (world, radius) = (problem.world(), problem.radius());
+    let again = |&id: &ShapeId| world.shape(id).is_some_and(|s| s.blocks(piece, radius));
+    if in_the_way.iter().any(again) {
+        return false;
+    }
+    if let Some(id) = world.blocker(piece, radius) {
+        *in_the_way = [id, in_the_way[0]];
+        return false;
+    }
+    world.is_within_bounds(piece)
+}
+
 fn turn_of(node: u32) -> Turn {
     Turn::BOTH[node as usize % 2]
 }
 
 /// All tangents that leave a disc in one direction round it.
-fn tangents<'a>(discs: &'a [Disc], from: &'a Disc, out: Turn) -> impl Iterator<Item = Edge> + 'a {
-    (0..).zip(discs).flat_map(move |(k, to)| {
+fn tangents<'a>(
+    discs: &'a [Disc],
+    groups: &'a [Group],
+    from: &'a Disc,
+    out: Turn,
+) -> impl Iterator<Item = Edge> + 'a {
+    let ahead = groups
+        .iter()
+        .filter(move |group| group.is_ahead_of(from, out));
+    let there = ahead.flat_map(|group| group.discs.clone());
+    there.flat_map(move |k| {
         Turn::BOTH.into_iter().filter_map(move |into| {
-            let tangent = Tangent::between(from, out, to, into)?;
+            let tangent = Tangent::between(from, out, &discs[k], into)?;
+            let to = u32::try_from(2 * k + usize::from(into == Turn::Right)).ok()?;
             Some(Edge {
-                to: 2 * k + u32::from(into == Turn::Right),
+                to,
                 free: None,
                 tangent,
             })

@@ -1,0 +1,25 @@
+//! Every law that binds them.
+
+use pf_classic::{AStar, DStarLite, Dijkstra, VisibilityGraph};
+use pf_conformance::{grid, world};
+use pf_core::FromScratch;
+
+#[test]
+fn a_star_keeps_the_laws() {
+    grid::check_replanner(|| FromScratch(AStar::default()));
+}
+
+#[test]
+fn dijkstra_keeps_the_laws() {
+    grid::check_replanner(|| FromScratch(Dijkstra::default()));
+}
+
+#[test]
+fn d_star_lite_keeps_the_laws() {
+    grid::check_replanner(DStarLite::default);
+}
+
+#[test]
+fn the_visibility_graph_keeps_the_laws() {
+    world::check_replanner(VisibilityGraph::default);
+}
