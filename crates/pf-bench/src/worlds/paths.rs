@@ -21,10 +21,15 @@ pub(super) fn run(args: &Args, tell: &mut impl FnMut(Case) -> Result<()>) -> Res
         let worlds: Vec<Vec<Shape>> = (0..args.worlds)
             .map(|_| shapes(&mut rng, count, false))
             .collect();
-        tell(fresh(args, &mut rng, &worlds, count, one_shot)?)?;
+        let name = format!("{count} shapes, one shot");
+        if args.wants(&name) {
+            tell(fresh(args, &mut rng, &worlds, &name, one_shot)?)?;
+        }
         for (name, step) in [("goal anywhere", f64::INFINITY), ("goal drifts by 2", 2.0)] {
             let name = format!("{count} shapes, {name}");
-            tell(kept(args, &mut rng, &worlds, &name, step, moved)?)?;
+            if args.wants(&name) {
+                tell(kept(args, &mut rng, &worlds, &name, step, moved)?)?;
+            }
         }
     }
     Ok(())
@@ -35,12 +40,12 @@ fn fresh(
     args: &Args,
     rng: &mut PlanRng,
     worlds: &[Vec<Shape>],
-    count: u32,
+    name: &str,
     target: Option<f64>,
 ) -> Result<Case> {
-    let bounds = square(count);
     let mut tallies = [Tally::default(), Tally::default()];
     for shapes in worlds {
+        let bounds = square(u32::try_from(shapes.len())?);
         let world = World::with_shapes(bounds, shapes.clone());
         for _ in 0..args.queries {
             let (start, goal) = (free_place(rng, &world), free_place(rng, &world));
@@ -61,7 +66,7 @@ fn fresh(
             add(&mut tallies, least, lengths);
         }
     }
-    Ok(case(&format!("{count} shapes, one shot"), tallies, target))
+    Ok(case(name, tallies, target))
 }
 
 /// The graph and the mesh are there; only the goal is another. A graph learns from what it was
@@ -76,8 +81,8 @@ fn kept(
 ) -> Result<Case> {
     let mut tallies = [Tally::default(), Tally::default()];
     for shapes in worlds {
-        let count = u32::try_from(shapes.len()).unwrap_or(u32::MAX);
-        let world = World::with_shapes(square(count), shapes.clone());
+        let bounds = square(u32::try_from(shapes.len())?);
+        let world = World::with_shapes(bounds, shapes.clone());
         let mesh = mesh(world.bounds(), shapes);
         let start = free_place(rng, &world);
         let mut goals = vec![free_place(rng, &world)];
