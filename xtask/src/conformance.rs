@@ -3,7 +3,13 @@
 
 use crate::steps::Verdict;
 use anyhow::{Result, ensure};
-use pf_conformance::{Options, examine_replanner, grid::Grids, rogues::rogues};
+use pf_conformance::{
+    Options, Suite, examine_replanner,
+    grid::Grids,
+    rogues::{rogues, world_rogues},
+    world::Worlds,
+};
+use pf_planners::Entry;
 use std::panic;
 
 #[derive(clap::Args, Default)]
@@ -30,24 +36,12 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
         ..ordinary
     };
     let mut tally = Tally::default();
-    for planner in pf_planners::grid_planners() {
-        if args
-            .planner
-            .as_ref()
-            .is_some_and(|name| name != planner.key())
-        {
-            continue;
-        }
-        planner.make(&[])?;
-        let make = || {
-            planner
-                .make(&[])
-                .expect("it was made with its defaults just now")
-        };
-        for verdict in examine_replanner(&Grids, &options, &make) {
-            println!("{:<14} {verdict}", planner.key());
-            tally.add(verdict.passed());
-        }
+    let wanted = |key: &str| args.planner.as_ref().is_none_or(|name| name == key);
+    for planner in pf_planners::grid_planners().filter(|planner| wanted(planner.key())) {
+        hold(&Grids, &options, planner, &mut tally)?;
+    }
+    for planner in pf_planners::world_planners().filter(|planner| wanted(planner.key())) {
+        hold(&Worlds, &options, planner, &mut tally)?;
     }
     ensure!(tally != Tally::default(), "no law was checked");
     if args.planner.is_none() {
@@ -55,6 +49,26 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
     }
     println!("{} passed, {} failed", tally.passed, tally.failed);
     Ok(Verdict::passed_if(tally.failed == 0))
+}
+
+/// Holds a planner to every law that binds it.
+fn hold<S: Suite>(
+    suite: &S,
+    options: &Options,
+    planner: &Entry<S::Problem>,
+    tally: &mut Tally,
+) -> Result<()> {
+    planner.make(&[])?;
+    let make = || {
+        planner
+            .make(&[])
+            .expect("it was made with its defaults just now")
+    };
+    for verdict in examine_replanner(suite, options, &make) {
+        println!("{:<16} {verdict}", planner.key());
+        tally.add(verdict.passed());
+    }
+    Ok(())
 }
 
 #[derive(Default, PartialEq)]
@@ -75,10 +89,13 @@ fn examine_rogues(tally: &mut Tally) {
     // One of them panics for a living; the kit reports it, and nobody else need.
     let hook = panic::take_hook();
     panic::set_hook(Box::new(|_| ()));
-    let examined: Vec<_> = rogues()
+    let on_grids = rogues()
         .into_iter()
-        .map(|rogue| (rogue.law, rogue.sin, rogue.examine()))
-        .collect();
+        .map(|rogue| (rogue.law, rogue.sin, rogue.examine()));
+    let in_worlds = world_rogues()
+        .into_iter()
+        .map(|rogue| (rogue.law, rogue.sin, rogue.examine()));
+    let examined: Vec<_> = on_grids.chain(in_worlds).collect();
     panic::set_hook(hook);
     for (law, sin, verdicts) in examined {
         let broken = verdicts.iter().filter(|verdict| !verdict.passed());
@@ -89,7 +106,7 @@ fn examine_rogues(tally: &mut Tally) {
         } else {
             format!("BROKEN: it breaks {broken:?}")
         };
-        println!("rogue          breaks only `{law}`: {sin}  {result}");
+        println!("rogue            breaks only `{law}`: {sin}  {result}");
         tally.add(bites);
     }
 }

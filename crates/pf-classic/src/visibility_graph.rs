@@ -82,7 +82,13 @@ impl VisibilityGraph {
         problem: &WorldProblem,
         cx: &mut Context<'_, WorldProblem>,
     ) -> Report<WorldProblem> {
-        match self.graph.shortest(problem, cx) {
+        let answer = self.graph.shortest(problem, cx);
+        if cx.listening() {
+            for piece in self.graph.free_pieces() {
+                cx.points("free piece", || vec![piece.a, piece.b]);
+            }
+        }
+        match answer {
             Answer::Route(route) => {
                 let path = self.flattened(problem, &route);
                 cx.answer(problem, path, Proof::Optimal)

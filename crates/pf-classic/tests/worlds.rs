@@ -3,9 +3,11 @@
 use pf_classic::VisibilityGraph;
 use pf_conformance::{
     seeded,
-    world::{Kind, Recipe, SLACK, listing, oracle, random_world, roadmap},
+    world::{Kind, Recipe, SLACK, listing, oracle, problems, random_world, roadmap},
 };
 use pf_core::{Context, Outcome, Planner, Problem};
+use pf_geom::WorldProblem;
+use proptest::{prelude::*, test_runner::RngSeed};
 use rand::RngExt;
 
 const WORLDS: u64 = 500;
@@ -51,7 +53,26 @@ fn no_roadmap_is_shorter_in_five_hundred_worlds() {
     // The rivals are near enough for the comparison to mean something.
     excess.sort_by(f64::total_cmp);
     let median = excess[excess.len() / 2];
-    assert!(excess.len() >= 250 && median < 0.02, "{} {median}", excess.len());
+    assert!(
+        excess.len() >= 250 && median < 0.02,
+        "{} {median}",
+        excess.len()
+    );
+}
+
+/// Whether the planner says what the oracle says.
+fn agree(problem: &WorldProblem) -> Result<(), String> {
+    let report = VisibilityGraph::default().plan(problem, &mut Context::seeded(0));
+    let report = report.expect("any world is planned in");
+    let found = report.outcome.solved().map(|best| best.cost);
+    let best = oracle(problem).map(|best| best.length);
+    let same = match (found, best) {
+        (Some(found), Some(best)) => (best - 1e-6..=best + SLACK + 1e-6).contains(&found),
+        (None, None) => matches!(report.outcome, Outcome::Infeasible),
+        _ => false,
+    };
+    let how = || format!("{found:?}, expected {best:?}\n{}", listing(problem));
+    if same { Ok(()) } else { Err(how()) }
 }
 
 #[test]
@@ -60,16 +81,22 @@ fn the_oracle_finds_the_same_in_a_thousand_worlds() {
         let mut rng = seeded(seed);
         let recipe = Recipe::any(&mut rng, 5..=20);
         let problem = random_world(&mut rng, &recipe);
-        let report = VisibilityGraph::default().plan(&problem, &mut Context::seeded(0));
-        let report = report.expect("any world is planned in");
-        let found = report.outcome.solved().map(|best| best.cost);
-        let same = match (found, oracle(&problem)) {
-            (Some(found), Some(best)) => {
-                (best.length - 1e-6..=best.length + SLACK + 1e-6).contains(&found)
-            }
-            (None, None) => matches!(report.outcome, Outcome::Infeasible),
-            _ => false,
-        };
-        assert!(same, "seed {seed}: {found:?}, {recipe:?}\n{}", listing(&problem));
+        if let Err(how) = agree(&problem) {
+            panic!("seed {seed}, {recipe:?}: {how}");
+        }
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig {
+        cases: 3000,
+        rng_seed: RngSeed::Fixed(1),
+        ..ProptestConfig::default()
+    })]
+
+    /// With corners in line and shapes that touch, on whole numbers.
+    #[test]
+    fn the_oracle_finds_the_same_among_shapes_that_touch(problem in problems(0..10)) {
+        prop_assert_eq!(agree(&problem), Ok(()));
     }
 }

@@ -1,9 +1,9 @@
 //! Options that several verbs share.
 
-use crate::failure::Failure;
+use crate::{failure::Failure, spot::Spot};
 use clap::Args;
 use pf_core::{Budget, CancelToken, InvalidParams};
-use pf_grid::{Cell, Moves};
+use pf_grid::Moves;
 use pf_io::Unknown;
 use pf_planners::{AnyEntry, Order, Runner, find};
 use pf_render::Recorder;
@@ -87,22 +87,29 @@ impl PlannerArgs {
 #[derive(Args, Debug)]
 #[command(next_help_heading = "Question")]
 pub(crate) struct QuestionArgs {
-    /// Where from: column and row, from 0, rows down
-    #[arg(long, value_name = "X,Y")]
-    pub(crate) from: Option<Cell>,
+    /// Where from: on a grid column and row, from 0, rows down; in a world a point, y up
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub(crate) from: Option<Spot>,
     /// Where to
-    #[arg(long, value_name = "X,Y")]
-    pub(crate) to: Option<Cell>,
-    /// The robot's radius in cells
-    #[arg(long, value_name = "R", value_parser = radius, allow_negative_numbers = true)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true)]
+    pub(crate) to: Option<Spot>,
+    /// The robot's radius, in cells or in the world's unit
+    #[arg(long, value_name = "R", value_parser = distance, allow_negative_numbers = true)]
     pub(crate) radius: Option<f64>,
+    /// How far the robot is to stay away from obstacles
+    #[arg(long, value_name = "C", value_parser = distance, allow_negative_numbers = true)]
+    pub(crate) clearance: Option<f64>,
+    /// For a planner on grids, cut a world into cells with sides of this length; else half the
+    /// robot's radius, or what gives some ten thousand cells
+    #[arg(long, value_name = "SIDE", value_parser = side, allow_negative_numbers = true)]
+    pub(crate) cell: Option<f64>,
     /// Which steps are allowed: orthogonal, always, one-corner, no-corner-cutting
     #[arg(long, value_name = "RULE")]
     pub(crate) moves: Option<Moves>,
     /// What unknown cells of a ROS map count as: free, blocked
     #[arg(long, value_name = "WHAT", value_parser = unknown)]
     pub(crate) unknown: Option<Unknown>,
-    /// Only this case of a scenario file
+    /// Only this case of a scenario, or this robot of a world
     #[arg(long, value_name = "NAME")]
     pub(crate) case: Option<String>,
 }
@@ -114,10 +121,17 @@ fn setting(text: &str) -> Result<(String, String), String> {
     }
 }
 
-fn radius(text: &str) -> Result<f64, String> {
+fn distance(text: &str) -> Result<f64, String> {
     match text.parse::<f64>() {
-        Ok(radius) if radius >= 0.0 && radius.is_finite() => Ok(radius),
-        _ => Err("a radius is a number of cells from 0".to_owned()),
+        Ok(distance) if distance >= 0.0 && distance.is_finite() => Ok(distance),
+        _ => Err("a radius or clearance is a number from 0".to_owned()),
+    }
+}
+
+fn side(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(side) if side > 0.0 && side.is_finite() => Ok(side),
+        _ => Err("the side of a cell is a positive number".to_owned()),
     }
 }
 

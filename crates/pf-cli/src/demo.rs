@@ -6,12 +6,13 @@ use crate::{
     question::Question,
     report::{Told, length, status},
     text,
+    view::Shown,
 };
 use comfy_table::{CellAlignment, Table, presets};
 use pf_core::{Budget, CancelToken};
 use pf_grid::{Cell, Grid, Moves};
 use pf_io::{FileError, Unknown, parse_movingai, parse_ros};
-use pf_planners::{Answer, AnyEntry, Order, Scene, all};
+use pf_planners::{Answer, AnyEntry, GridScene, Order, Robot, all};
 use pf_render::Recorder;
 use std::{
     fs,
@@ -120,9 +121,9 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
 
 impl Show {
     fn question(&self) -> Result<Question, Failure> {
-        let scene = Scene::new((self.map)()?, self.from, self.to)?
+        let scene = GridScene::new((self.map)()?, self.from, self.to)?
             .with_moves(self.moves)
-            .with_radius(self.radius)?;
+            .with_robot(Robot::of_radius(self.radius))?;
         Ok(Question::of(self.name, scene))
     }
 
@@ -158,7 +159,13 @@ impl Show {
             nearest: None,
             answer: runner.plan(&question.scene, order(Some(&mut recorder)))?,
         };
-        let picture = told.picture(Some(recorder.expanded()));
+        let picture = told.picture(&Shown {
+            recorder: &recorder,
+            raster: runner.raster(),
+            expanded: true,
+            graph: true,
+            clearance: false,
+        });
         let file = args.out.join(format!("{}-{}", self.name, entry.key()));
         let (svg, png) = (file.with_extension("svg"), file.with_extension("png"));
         draw(&picture, Some(&svg), Some(&png))?;

@@ -15,7 +15,10 @@ mod question;
 mod replan;
 mod report;
 mod scen;
+mod spot;
 mod text;
+mod view;
+mod words;
 
 use clap::{Parser, Subcommand};
 use failure::{Failure, Status};
@@ -33,6 +36,7 @@ const EXAMPLES: &str = "\
 Examples:
   pf demo
   pf plan office.yaml --from 20,30 --to 370,270 --radius 3 --svg office.svg
+  pf plan yard.toml --planner visibility-graph --clearance 0.5 --png yard.png
   pf plan arena.map --scen arena.map.scen
   pf replan door.toml --planner d-star-lite --json
 
@@ -43,7 +47,7 @@ Exit codes:
 
 #[derive(Subcommand)]
 enum Verb {
-    /// Plan a path on a map
+    /// Plan a path on a map, a grid or a world of shapes
     Plan(plan::Args),
     /// Play the timed changes of a scenario and plan anew after each
     Replan(replan::Args),

@@ -2,20 +2,18 @@
 
 use crate::{
     args::{PlannerArgs, QuestionArgs},
-    explain,
     failure::{Failure, Status},
-    plan::{agrees, draw},
+    plan::{agrees, draw, one_picture},
     question::{self, Question},
     report::{self, Json, Told},
-    text,
+    text, view, words,
 };
 use pf_core::CancelToken;
-use pf_grid::{Cell, Grid, GridChange};
-use pf_planners::{AnyEntry, Line, Runner};
+use pf_io::kind_of;
+use pf_planners::{AnyEntry, Line, Runner, Scene};
 use pf_render::Line as Pen;
 use serde::Serialize;
 use std::{
-    collections::BTreeSet,
     io::{Write, stdout},
     path::PathBuf,
     time::Duration,
@@ -24,7 +22,7 @@ use std::{
 /// Play the timed changes of a scenario and plan anew after each.
 ///
 /// Event 0 is the first plan. The latency runs from a change to the answer, the change of the
-/// planner's own map included; the upkeep is what the planner does once the answer is out, for the
+/// planner's own map and a conversion of the scene's included; the upkeep is what the planner does once the answer is out, for the
 /// next to come sooner. A case that follows another begins with that one's answer. The exit code
 /// tells of the last event.
 #[derive(clap::Args)]
@@ -32,6 +30,7 @@ use std::{
 Examples:
   pf replan door.toml
   pf replan door.toml --planner astar --json
+  pf replan yard-traffic.toml --planner visibility-graph --png traffic.png
   pf replan maps/scenarios/redlarski.toml --case 'maze-100 table 3' --svg maze.svg")]
 pub(crate) struct Args {
     /// A scenario file with events, or with cases that follow others
@@ -71,8 +70,9 @@ struct Moment {
 }
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
-    if !question::is_scenario(&args.scenario) {
-        let message = format!("{} is no scenario file (.toml)", args.scenario.display());
+    let kind = kind_of(&args.scenario)?;
+    if !question::is_scenario(kind) {
+        let message = format!("{} is no scenario", args.scenario.display());
         let help = "for a path on a map there is `pf plan`";
         return Err(Failure::usage(message).help(help));
     }
@@ -82,11 +82,14 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     }
     let drawing = args.svg.is_some() || args.png.is_some();
     if drawing && questions.len() > 1 {
-        let names: Vec<_> = questions.iter().filter_map(|q| q.case.as_deref()).collect();
-        let help = format!("choose one with --case: {}", names.join(", "));
-        return Err(Failure::usage("a picture shows one case").help(help));
+        return Err(one_picture(&questions));
     }
-    let entry = args.planner.entry("d-star-lite")?;
+    let default = if question::is_about_a_world(kind) {
+        "visibility-graph"
+    } else {
+        "d-star-lite"
+    };
+    let entry = args.planner.entry(default)?;
     let mut runner = args.planner.runner(entry, &[])?;
     let mut worst = Status::Done;
     for question in &mut questions {
@@ -128,12 +131,12 @@ impl Play<'_> {
         let first: Option<Line> = told.answer.lines.first().cloned();
         let mut status = self.tell(&moment, &mut told)?;
         let mut failed = status == Status::CheckFailed;
-        let before = question.scene.map().clone();
+        let before = question.scene.clone();
         for event in events {
             if self.cancel.is_cancelled() {
                 return Ok(Status::Interrupted);
             }
-            let words = question::words(&event.changes);
+            let words = words::of(&event.changes, &question.names);
             moment = Moment {
                 event: moment.event + 1,
                 at: event.at,
@@ -142,7 +145,9 @@ impl Play<'_> {
                     .map_or(words.clone(), |name| format!("{name}: {words}")),
             };
             let followed = question.scene.change(&event.changes)?;
-            let answer = self.runner.replan(&followed, self.order())?;
+            let answer = self
+                .runner
+                .replan(&question.scene, &followed, self.order())?;
             status = self.tell(&moment, &mut self.told(question, answer))?;
             failed |= status == Status::CheckFailed;
         }
@@ -169,16 +174,14 @@ impl Play<'_> {
     fn tell(&mut self, moment: &Moment, told: &mut Told<'_>) -> Result<Status, Failure> {
         let upkeep = self.runner.settle(self.order());
         let mut status = report::status(&told.answer);
-        if told.answer.outcome == "infeasible" {
-            told.notes = explain::why(&told.question.scene);
-        }
-        if let Some(expected) = &told.question.expected
-            && told.question.expected_after == moment.event
+        told.explain();
+        if let Some(stated) = told.stated()
+            && told.question.stated_after == moment.event
             && status != Status::Interrupted
-            && !agrees(expected, &told.answer)
+            && !agrees(stated, &told.answer)
         {
-            told.notes
-                .push(format!("expected: the file says {}", expected.cost));
+            let words = format!("expected: the file says {}", stated.words);
+            told.notes.push(words);
             if matches!(told.answer.outcome, "optimal" | "infeasible") {
                 status = Status::CheckFailed;
             }
@@ -206,7 +209,7 @@ impl Play<'_> {
         &mut self,
         question: &Question,
         first: Option<&Line>,
-        before: &Grid,
+        before: &Scene,
     ) -> Result<(), Failure> {
         let (svg, png) = (self.args.svg.as_deref(), self.args.png.as_deref());
         if svg.is_none() && png.is_none() {
@@ -214,35 +217,17 @@ impl Play<'_> {
         }
         let scene = &question.scene;
         let answer = self.runner.plan(scene, self.order())?;
-        let mut picture = report::ground(scene).changed(&between(before, scene.map()));
+        let mut picture = view::changed(view::ground(scene), before, scene);
         if let Some(line) = first {
-            picture = report::path(picture, scene, "at first", Pen::Dashed, line);
+            picture = view::path(picture, scene, "at first", Pen::Dashed, line);
         }
         if let Some(line) = answer.lines.first() {
-            picture = report::path(picture, scene, "in the end", Pen::Solid, line);
+            picture = view::path(picture, scene, "in the end", Pen::Solid, line);
         }
         let told = self.told(question, answer);
-        let picture = picture.ends(scene.from(), scene.to());
+        let picture = view::ends(picture, scene);
         draw(&picture.caption(told.title()), svg, png)
     }
-}
-
-/// What turned one grid into another of its size.
-fn between(before: &Grid, now: &Grid) -> Vec<GridChange> {
-    let cells = |differs: &dyn Fn(Cell) -> bool| -> Vec<Cell> {
-        now.layout().cells().filter(|&cell| differs(cell)).collect()
-    };
-    let blocked = cells(&|c| before.is_free(c) && !now.is_free(c));
-    let freed = cells(&|c| !before.is_free(c) && now.is_free(c));
-    let dearer = cells(&|c| before.is_free(c) && now.is_free(c) && before.cost(c) != now.cost(c));
-    let costs: BTreeSet<u8> = dearer.iter().map(|&c| now.cost(c)).collect();
-    let of_cost = |cost| {
-        let cells = dearer.iter().copied().filter(|&c| now.cost(c) == cost);
-        GridChange::CostChanged(cells.collect(), cost)
-    };
-    let mut changes = vec![GridChange::Blocked(blocked), GridChange::Freed(freed)];
-    changes.extend(costs.into_iter().map(of_cost));
-    changes
 }
 
 fn header(told: &Told<'_>) -> Result<(), Failure> {

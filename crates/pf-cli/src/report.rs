@@ -1,11 +1,15 @@
 //! What a planner answered, for people and for programs.
 
 use crate::{
+    explain,
     failure::{Failure, Status},
-    question::Question,
+    question::{Question, Stated},
+    spot::Spot,
     text,
+    view::{self, Shown},
 };
 use pf_core::{Stats, Stop};
+use pf_geom::{Point as GeomPoint, Segment, World, world_of};
 use pf_grid::{Cell, Clearance};
 use pf_planners::{Answer, AnyEntry, Line, Scene};
 use pf_render::{Line as Pen, Picture};
@@ -90,7 +94,7 @@ pub(crate) fn status(answer: &Answer) -> Status {
     }
 }
 
-/// The length of a line, in cells.
+/// The length of a line, in the map's unit.
 pub(crate) fn length(line: &Line) -> f64 {
     // Straight and diagonal steps apart, so that no rounding adds up.
     let (mut diagonal, mut other) = (0u32, 0.0);
@@ -114,13 +118,55 @@ impl Told<'_> {
         &self.question.scene
     }
 
-    /// The least distance between the path and an obstacle, in cells; `None` without either.
+    /// What the file says of this question, unless the planner answers another.
+    pub(crate) fn stated(&self) -> Option<&Stated> {
+        let stated = self.question.stated.as_ref();
+        stated.filter(|_| !self.is_converted())
+    }
+
+    /// Whether the planner was asked about something that the map was turned into.
+    fn is_converted(&self) -> bool {
+        self.entry.problem() != self.scene().kind()
+    }
+
+    /// Whether the planner came to its end without a path.
+    pub(crate) fn has_no_way(&self) -> bool {
+        self.answer.lines.is_empty() && self.answer.stop == Stop::Finished
+    }
+
+    /// Says why there is no path, and what became of the clearance asked for.
+    pub(crate) fn explain(&mut self) {
+        if self.answer.outcome == "infeasible" {
+            self.notes = explain::why(self.question);
+        }
+        let robot = self.scene().robot();
+        if robot.clearance > 0.0
+            && let Some(reached) = self.clearance()
+        {
+            let (asked, reached) = (robot.clearance, text::number(reached - robot.radius));
+            self.notes.push(format!(
+                "clearance: asked for {asked}, reached {reached} besides the radius"
+            ));
+        }
+    }
+
+    /// The least distance between the path and an obstacle, in the map's unit; `None` without
+    /// either. A path from cell to cell is measured in the cells' middles.
     fn clearance(&self) -> Option<f64> {
-        let clearance = Clearance::of(self.scene().map());
-        let along = self.line()?.iter().map(|&p| clearance.at(cell(p)));
-        along
-            .min_by(f64::total_cmp)
-            .filter(|least| least.is_finite())
+        let line = self.line()?;
+        let least = match self.scene() {
+            Scene::Grid(scene) if !self.is_converted() => {
+                let clearance = Clearance::of(scene.map());
+                let along = line.iter().map(|&p| clearance.at(cell(p)));
+                along.fold(f64::INFINITY, f64::min)
+            }
+            Scene::Grid(scene) => {
+                let points = view::on_picture(self.scene(), line);
+                clearance_of(&world_of(scene.map()), &points)
+            }
+            Scene::World(scene) => clearance_of(scene.world(), line),
+        };
+        least.is_finite().then_some(least)
     }
 
     fn all_notes(&self) -> Vec<String> {
@@ -132,7 +178,7 @@ impl Told<'_> {
         let answer = &self.answer;
         Json {
             planner: self.entry.key(),
-            problem: self.entry.problem(),
+            problem: self.scene().kind(),
             case: self.question.case.as_deref(),
             outcome: answer.outcome,
             stop: answer.stop.word(),
@@ -150,22 +196,39 @@ impl Told<'_> {
     /// The paragraph for people.
     pub(crate) fn tell(&self, out: &mut dyn Write) -> Result<(), Failure> {
         let answer = &self.answer;
+        let unit = match self.scene() {
+            Scene::Grid(_) => " cells",
+            Scene::World(_) => "",
+        };
         writeln!(out, "{}", self.title())?;
         let mut row = |name: &str, value: &str| writeln!(out, "  {name:<10} {value}");
         row("outcome", meaning(answer))?;
         if let (Some(line), Some(&cost)) = (self.line(), answer.costs.first()) {
-            row("cost", &text::number(cost))?;
-            row("length", &format!("{} cells", text::number(length(line))))?;
-            row("path", &format!("{} cells", text::count(line.len() as u64)))?;
+            if matches!(self.scene(), Scene::Grid(_)) {
+                row("cost", &text::number(cost))?;
+            }
+            row("length", &format!("{}{unit}", text::number(length(line))))?;
+            let stations = match self.scene() {
+                Scene::Grid(_) if !self.is_converted() => "cells",
+                _ => "points",
+            };
+            row(
+                "path",
+                &format!("{} {stations}", text::count(line.len() as u64)),
+            )?;
             if let Some(clearance) = self.clearance() {
-                row("clearance", &format!("{} cells", text::number(clearance)))?;
+                let rest = match self.scene().robot().radius {
+                    0.0 => String::new(),
+                    radius => format!(", {} besides the radius", text::number(clearance - radius)),
+                };
+                row(
+                    "clearance",
+                    &format!("{}{unit}{rest}", text::number(clearance)),
+                )?;
             }
         }
         row("time", &text::time(answer.stats.elapsed))?;
-        row(
-            "expanded",
-            &format!("{} cells", text::count(answer.stats.expanded)),
-        )?;
+        row("expanded", &self.expanded())?;
         for note in self.all_notes() {
             row("note", &note)?;
         }
@@ -180,70 +243,100 @@ impl Told<'_> {
         Ok(())
     }
 
+    /// How much the planner looked at.
+    fn expanded(&self) -> String {
+        let what = match self.entry.problem() {
+            "grid" => "cells",
+            _ => "points",
+        };
+        format!("{} {what}", text::count(self.answer.stats.expanded))
+    }
+
     /// Planner, file, size, query.
     pub(crate) fn title(&self) -> String {
-        let (scene, question) = (self.scene(), self.question);
+        let question = self.question;
         let case = question.case.as_ref().map(|case| format!(", {case}"));
+        let [from, to] = view::query(self.scene());
+        let (size, rules) = match self.scene() {
+            Scene::Grid(scene) => {
+                let (width, height) = (scene.map().width(), scene.map().height());
+                (
+                    format!("{width} x {height} cells"),
+                    format!(", {}", scene.moves()),
+                )
+            }
+            Scene::World(scene) => {
+                let bounds = scene.world().bounds();
+                let [min, max] = [bounds.min(), bounds.max()].map(Spot::from);
+                let shapes = scene.world().shapes().count();
+                let many = if shapes == 1 { "" } else { "s" };
+                (
+                    format!("{shapes} shape{many} in {min} to {max}"),
+                    String::new(),
+                )
+            }
+        };
+        let robot = match self.scene().robot() {
+            robot if robot.reach() > 0.0 => format!(", {}", explain::size(robot)),
+            _ => String::new(),
+        };
         format!(
-            "{} on {}{}: {} x {} cells, {} to {}, {}{}",
+            "{} on {}{}: {size}, {from} to {to}{rules}{robot}",
             self.entry.name(),
             question.file,
             case.unwrap_or_default(),
-            scene.map().width(),
-            scene.map().height(),
-            scene.from(),
-            scene.to(),
-            scene.moves(),
-            match scene.radius() {
-                0.0 => String::new(),
-                radius => format!(", radius {radius}"),
-            }
         )
     }
 
     /// The map with what was found on it.
-    pub(crate) fn picture(&self, expanded: Option<&[Cell]>) -> Picture {
+    pub(crate) fn picture(&self, shown: &Shown<'_>) -> Picture {
         let (scene, answer) = (self.scene(), &self.answer);
-        let mut picture = ground(scene);
-        if let Some(cells) = expanded {
-            picture = picture.expanded(cells);
-        }
+        let mut picture = shown.search(view::ground(scene));
         for line in &answer.lines {
-            picture = path(picture, scene, &self.entry.name(), Pen::Solid, line);
+            picture = view::path(picture, scene, &self.entry.name(), Pen::Solid, line);
+            if shown.clearance {
+                picture = self.coloured(picture, line);
+            }
         }
         if let Some(line) = &self.nearest {
-            picture = path(picture, scene, "to the nearest cell", Pen::Dashed, line);
+            picture = view::path(picture, scene, "to the nearest cell", Pen::Dashed, line);
         }
-        let cost = match answer.costs.first() {
-            Some(&cost) => format!("{}, cost {}", answer.outcome, text::number(cost)),
-            None => answer.outcome.to_owned(),
+        let cost = match (answer.costs.first(), scene) {
+            (Some(&cost), Scene::Grid(_)) => {
+                format!("{}, cost {}", answer.outcome, text::number(cost))
+            }
+            (Some(&length), Scene::World(_)) => {
+                format!("{}, length {}", answer.outcome, text::number(length))
+            }
+            (None, _) => answer.outcome.to_owned(),
         };
-        let (expanded, seed) = (text::count(answer.stats.expanded), self.seed);
-        picture
-            .ends(scene.from(), scene.to())
+        let (expanded, seed) = (self.expanded(), self.seed);
+        view::ends(picture, scene)
             .caption(self.title())
-            .caption(format!("{cost}, {expanded} cells expanded, seed {seed}"))
+            .caption(format!("{cost}, {expanded} expanded, seed {seed}"))
+    }
+
+    fn coloured(&self, picture: Picture, line: &Line) -> Picture {
+        let points = view::on_picture(self.scene(), line);
+        let at = |world: &World| {
+            let world = world.clone();
+            move |[x, y]: [f64; 2]| world.clearance_at(GeomPoint::new(x, y))
+        };
+        match self.scene() {
+            Scene::Grid(scene) => picture.clearance(&points, at(&world_of(scene.map()))),
+            Scene::World(scene) => picture.clearance(&points, at(scene.world())),
+        }
     }
 }
 
-/// A scene's map, with what is too narrow for its robot.
-pub(crate) fn ground(scene: &Scene) -> Picture {
-    let picture = Picture::of(scene.map());
-    if scene.radius() > 0.0 {
-        return picture.inflated(scene.map(), scene.inflated());
-    }
-    picture
-}
-
-/// A path through the centres of cells, and what the scene's robot sweeps on it if it is an answer.
-pub(crate) fn path(picture: Picture, scene: &Scene, name: &str, pen: Pen, line: &Line) -> Picture {
-    let centres: Vec<_> = line.iter().map(|[x, y]| [x + 0.5, y + 0.5]).collect();
-    if scene.radius() > 0.0 && pen == Pen::Solid {
-        return picture
-            .swath(&centres, scene.radius())
-            .line(name, pen, &centres);
-    }
-    picture.line(name, pen, &centres)
+/// The least distance between a line and the obstacles of a world; infinite if there are none.
+fn clearance_of(world: &World, line: &[[f64; 2]]) -> f64 {
+    let point = |[x, y]: [f64; 2]| GeomPoint::new(x, y);
+    let piece = |k: usize| {
+        let next = line[(k + 1).min(line.len() - 1)];
+        world.clearance(&Segment::new(point(line[k]), point(next)))
+    };
+    (0..line.len()).map(piece).fold(f64::INFINITY, f64::min)
 }
 
 #[expect(

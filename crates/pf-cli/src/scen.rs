@@ -8,7 +8,7 @@ use crate::{
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::{CancelToken, Stop};
 use pf_io::{Scen, ScenRow, read_scen};
-use pf_planners::{Answer, AnyEntry, Scene};
+use pf_planners::{Answer, AnyEntry, GridScene, Robot};
 use serde::Serialize;
 use std::{
     io::{Write, stdout},
@@ -49,16 +49,25 @@ pub(crate) fn act(
     question: &QuestionArgs,
     cancel: &CancelToken,
 ) -> Result<Status, Failure> {
-    let grid = question::map(request.map, question)?;
+    if entry.problem() != "grid" {
+        let message = format!("--scen: {} is no planner on grids", entry.key());
+        let help = "the lengths in such a file are those of paths from cell to cell";
+        return Err(Failure::usage(message).help(help));
+    }
+    let grid = question::grid(request.map, question)?;
     let scen = read_scen(request.rows)?;
     scen.check_size(&grid)?;
     let first = scen
         .rows
         .first()
         .map_or_else(Default::default, |row| row.start);
-    let scene = Scene::new(grid, first, first)?
+    let robot = Robot {
+        radius: question.radius.unwrap_or(0.0),
+        clearance: question.clearance.unwrap_or(0.0),
+    };
+    let scene = GridScene::new(grid, first, first)?
         .with_moves(question.moves.unwrap_or_default())
-        .with_radius(question.radius.unwrap_or(0.0))?;
+        .with_robot(robot)?;
     let rows = &scen.rows[..request.limit.unwrap_or(usize::MAX).min(scen.rows.len())];
     // One planner for all rows: it keeps its memory.
     let mut runner = planner.runner(entry, &[])?;
@@ -66,7 +75,7 @@ pub(crate) fn act(
     let bar = bar(rows.len());
     for row in rows {
         let scene = scene.clone().with_query(row.start, row.goal)?;
-        let answer = runner.plan(&scene, planner.order(cancel, None))?;
+        let answer = runner.plan(&scene.into(), planner.order(cancel, None))?;
         if answer.stop == Stop::Cancelled {
             break;
         }

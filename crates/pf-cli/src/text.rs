@@ -30,6 +30,11 @@ pub(crate) fn number(x: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
+/// The number that is written with at most twelve digits.
+pub(crate) fn short(x: f64) -> f64 {
+    format!("{x:.11e}").parse().unwrap_or(x)
+}
+
 /// So many of something.
 pub(crate) fn count(n: u64) -> String {
     indicatif::HumanCount(n).to_string()

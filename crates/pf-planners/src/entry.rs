@@ -63,7 +63,7 @@ pub trait AnyEntry: fmt::Debug {
     fn key(&self) -> &'static str;
     /// The name the literature uses.
     fn name(&self) -> String;
-    /// The problem it solves: `grid`.
+    /// The problem it solves: `grid`, `world`.
     fn problem(&self) -> &'static str;
     /// What it promises at its default settings.
     fn claims(&self) -> Claims;

@@ -1,7 +1,11 @@
 //! The list itself.
 
 use crate::{AnyEntry, Entry, UnknownPlanner, entry::entry};
-use pf_classic::{AStar, AStarParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams};
+use pf_classic::{
+    AStar, AStarParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams, VisibilityGraph,
+    VisibilityGraphParams,
+};
+use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
 
 static GRID: &[Entry<GridProblem>] = &[
@@ -10,15 +14,25 @@ static GRID: &[Entry<GridProblem>] = &[
     entry!(replans "d-star-lite", DStarLite, DStarLiteParams, "Koenig, Likhachev 2002"),
 ];
 
+static WORLD: &[Entry<WorldProblem>] = &[
+    entry!(replans "visibility-graph", VisibilityGraph, VisibilityGraphParams, "Lozano-Perez, Wesley 1979; Liu, Arimoto 1992"),
+];
+
 /// The planners on grids, each as a replanner; those that only plan start over
 /// ([`FromScratch`](pf_core::FromScratch)).
 pub fn grid_planners() -> impl Iterator<Item = &'static Entry<GridProblem>> {
     GRID.iter()
 }
 
+/// The planners in worlds of shapes, each as a replanner.
+pub fn world_planners() -> impl Iterator<Item = &'static Entry<WorldProblem>> {
+    WORLD.iter()
+}
+
 /// All planners, whatever their problem.
 pub fn all() -> impl Iterator<Item = &'static dyn AnyEntry> {
-    grid_planners().map(|entry| entry as &dyn AnyEntry)
+    let grid = grid_planners().map(|entry| entry as &dyn AnyEntry);
+    grid.chain(world_planners().map(|entry| entry as &dyn AnyEntry))
 }
 
 /// The planner called `key`.
@@ -33,7 +47,8 @@ pub fn find(key: &str) -> Result<&'static dyn AnyEntry, UnknownPlanner> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Order, Refusal};
+    use crate::{Changes, GridScene, Order, Refusal};
+    use pf_grid::{Cell, Grid};
 
     #[test]
     fn names_are_unique_and_every_default_works() {
@@ -73,7 +88,11 @@ mod tests {
     #[test]
     fn replanning_needs_a_plan() {
         let mut runner = find("d-star-lite").unwrap().runner(&[]).unwrap();
-        let refusal = runner.replan(&[], Order::seeded(0)).unwrap_err();
+        let scene = GridScene::new(Grid::open(1, 1).unwrap(), Cell::new(0, 0), Cell::new(0, 0));
+        let nothing = Changes::Grid(Vec::new());
+        let refusal = runner
+            .replan(&scene.unwrap().into(), &nothing, Order::seeded(0))
+            .unwrap_err();
         assert_eq!(refusal, Refusal::NothingPlanned);
     }
 }

@@ -1,9 +1,9 @@
-use crate::{Faith, FromScene, Line, Scene};
+use crate::{Changes, Conversion, Found, FromScene, Line, Posed, Scene};
 use pf_core::{
-    Budget, Claims, Context, InvalidProblem, Note, Outcome, Problem, Replanner, Report, Stats,
-    Stop, Trace, Unsupported,
+    Budget, Claims, Clock, Context, InvalidProblem, Note, Outcome, Problem, Replanner, Report,
+    Stats, Stop, Trace, Unsupported,
 };
-use pf_grid::GridChange;
+use pf_geom::Raster;
 use pf_render::Recorder;
 use std::time::Duration;
 
@@ -45,7 +45,7 @@ pub struct Answer {
     pub costs: Vec<f64>,
     /// The solution, a line per robot or alternative; empty without a solution.
     pub lines: Vec<Line>,
-    /// From the call to the answer, the change of the planner's own map included.
+    /// From the call to the answer, a conversion or change of the planner's own map included.
     pub latency: Duration,
 }
 
@@ -79,11 +79,19 @@ pub trait Runner {
     fn plan(&mut self, scene: &Scene, order: Order<'_>) -> Result<Answer, Refusal>;
 
     /// Answers the scene it was given last after these changes, as
-    /// [`Scene::change`] returned them.
+    /// [`Scene::change`] returned them; `scene` is as they left it.
     ///
     /// # Errors
     /// [`Refusal`] if nothing was planned before, or as [`plan`](Self::plan).
-    fn replan(&mut self, changes: &[GridChange], order: Order<'_>) -> Result<Answer, Refusal>;
+    fn replan(
+        &mut self,
+        scene: &Scene,
+        changes: &Changes,
+        order: Order<'_>,
+    ) -> Result<Answer, Refusal>;
+
+    /// The cells that the last scene was cut into, if it is a world and the planner wants a grid.
+    fn raster(&self) -> Option<&Raster>;
 
     /// Does the upkeep that could wait until the answer was out; says how long it took.
     fn settle(&mut self, order: Order<'_>) -> Duration;
@@ -92,7 +100,7 @@ pub trait Runner {
 /// A planner on the problem `P`, and the problem as it knows it.
 pub(crate) struct On<P: Problem> {
     planner: Box<dyn Replanner<P>>,
-    posed: Option<(P, Faith)>,
+    posed: Option<Posed<P>>,
 }
 
 impl<P: FromScene> On<P> {
@@ -115,26 +123,82 @@ where
     }
 }
 
-fn answer<P: FromScene>(problem: &P, faith: Faith, report: Report<P>, latency: Duration) -> Answer {
-    let outcome = match faith {
-        Faith::Exact => report.outcome,
-        Faith::Converted => report.outcome.converted(),
-    };
-    let word = outcome.word();
-    let (costs, lines) = match outcome {
-        Outcome::Optimal(best) | Outcome::Feasible(best) => {
-            (P::costs(&best.cost), problem.lines(&best.solution))
+/// What a report says of the scene.
+fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> Answer {
+    let mut notes: Vec<Note> = Vec::new();
+    let mut say = |key, text: String| notes.push(Note { key, text });
+    if let Some(conversion) = &posed.conversion {
+        say("converted", conversion.words(scene));
+        match &report.outcome {
+            Outcome::Infeasible => say("unproved", conversion.dead_end()),
+            Outcome::Optimal(_) => {
+                let text = "the best of the converted map, not proved to be the best of the map";
+                say("unproved", text.to_owned());
+            }
+            Outcome::Feasible(_) | Outcome::Unknown { .. } => {}
         }
-        Outcome::Infeasible | Outcome::Unknown { .. } => (Vec::new(), Vec::new()),
-    };
+    }
+    let (mut outcome, mut found) = (report.outcome, None);
+    if posed.conversion.is_some() {
+        outcome = outcome.converted();
+    }
+    if let Some(solved) = outcome.solved() {
+        found = P::read(posed, scene, solved);
+        if found.is_none() {
+            let text = "the planner's path does not pass the judge of the map that was asked about";
+            say("refused", text.to_owned());
+            outcome = Outcome::Unknown { attempt: None };
+        }
+    }
+    notes.extend(report.notes.into_iter().map(|note| P::reword(posed, note)));
+    let Found { costs, lines } = found.unwrap_or(Found {
+        costs: Vec::new(),
+        lines: Vec::new(),
+    });
     Answer {
-        outcome: word,
+        outcome: outcome.word(),
         stop: report.stop,
         stats: report.stats,
-        notes: report.notes,
+        notes,
         costs,
         lines,
-        latency,
+        latency: Duration::ZERO,
+    }
+}
+
+impl Conversion {
+    fn words(&self, scene: &Scene) -> String {
+        match (self, scene) {
+            (Self::Cells(raster), _) => {
+                let (w, h) = (raster.grid().width(), raster.grid().height());
+                format!(
+                    "the world was cut into {w} x {h} cells of {}, free where the robot fits \
+                     wherever in them it is",
+                    raster.cell_size()
+                )
+            }
+            (Self::Shapes(count), Scene::Grid(scene)) if !scene.map().is_uniform() => format!(
+                "the grid became a world of {count} rectangles: straight ways in all directions in \
+                 place of moves from cell to cell, and what cells cost is not heeded"
+            ),
+            (Self::Shapes(count), _) => format!(
+                "the grid became a world of {count} rectangles: straight ways in all directions in \
+                 place of moves from cell to cell"
+            ),
+        }
+    }
+
+    /// What it means that there is no way.
+    fn dead_end(&self) -> String {
+        match self {
+            Self::Cells(_) => "there is no way over these cells; over smaller ones (--cell) there \
+                               may be one, and a planner in worlds can tell"
+                .to_owned(),
+            Self::Shapes(_) => {
+                "there is no way between the rectangles; a planner on grids can tell of the grid"
+                    .to_owned()
+            }
+        }
     }
 }
 
@@ -151,30 +215,63 @@ where
     }
 
     fn plan(&mut self, scene: &Scene, order: Order<'_>) -> Result<Answer, Refusal> {
-        let (problem, faith) = P::from_scene(scene)?;
-        let mut cx = context(order);
-        let report = self.planner.plan(&problem, &mut cx)?;
-        let answer = answer(&problem, faith, report, cx.elapsed());
-        self.posed = Some((problem, faith));
+        let watch = Watch::start();
+        let posed = P::pose(scene)?;
+        let report = self.planner.plan(&posed.problem, &mut context(order))?;
+        let mut answer = answer(&posed, scene, report);
+        answer.latency = watch.elapsed();
+        self.posed = Some(posed);
         Ok(answer)
     }
 
-    fn replan(&mut self, changes: &[GridChange], order: Order<'_>) -> Result<Answer, Refusal> {
-        let (problem, faith) = self.posed.as_mut().ok_or(Refusal::NothingPlanned)?;
-        let changes = problem.changes(changes);
+    fn replan(
+        &mut self,
+        scene: &Scene,
+        changes: &Changes,
+        order: Order<'_>,
+    ) -> Result<Answer, Refusal> {
+        let watch = Watch::start();
+        let posed = self.posed.as_mut().ok_or(Refusal::NothingPlanned)?;
+        let changes = P::follow(posed, scene, changes)?;
         let mut cx = context(order);
-        let revision = problem.revise(&changes)?;
+        let revision = posed.problem.revise(&changes)?;
         let report = self.planner.replan(&revision, &mut cx)?;
-        let latency = cx.elapsed();
-        Ok(answer(problem, *faith, report, latency))
+        let mut answer = answer(posed, scene, report);
+        answer.latency = watch.elapsed();
+        Ok(answer)
+    }
+
+    fn raster(&self) -> Option<&Raster> {
+        match self.posed.as_ref()?.conversion.as_ref()? {
+            Conversion::Cells(raster) => Some(raster),
+            Conversion::Shapes(_) => None,
+        }
     }
 
     fn settle(&mut self, order: Order<'_>) -> Duration {
-        let Some((problem, _)) = &self.posed else {
+        let Some(posed) = &self.posed else {
             return Duration::ZERO;
         };
         let mut cx = context(order);
-        self.planner.settle(problem, &mut cx);
+        self.planner.settle(&posed.problem, &mut cx);
         cx.elapsed()
+    }
+}
+
+/// How long it has been.
+struct Watch {
+    clock: Clock,
+    began: Duration,
+}
+
+impl Watch {
+    fn start() -> Self {
+        let clock = Clock::default();
+        let began = clock.now();
+        Self { clock, began }
+    }
+
+    fn elapsed(&self) -> Duration {
+        self.clock.now().saturating_sub(self.began)
     }
 }

@@ -1,13 +1,16 @@
 //! Planners that break one law each, to prove that every law bites.
 //!
 //! Each is [`Honest`] but for one sin. The test of this crate shows that the kit finds exactly that
-//! sin in it, and none in the honest one.
+//! sin in it, and none in the honest one. The laws are the same for all problems; [`world_rogues`]
+//! have the sins that grids do not know.
 
 mod honest;
 mod planners;
 mod replanners;
+mod worlds;
 
 pub use honest::Honest;
+pub use worlds::{WorldHonest, WorldRogue, world_rogues};
 
 use crate::{Options, Verdict, examine, examine_replanner, grid::Grids};
 use pf_core::{

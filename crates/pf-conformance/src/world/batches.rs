@@ -3,7 +3,7 @@
 use super::shapes::{circle, pick, shape};
 use crate::PlanRng;
 use pf_core::Problem;
-use pf_geom::{Point, ShapeId, Vector, WorldChange, WorldProblem};
+use pf_geom::{Point, Segment, ShapeId, Vector, WorldChange, WorldProblem};
 use rand::RngExt;
 use std::f64::consts::TAU;
 
@@ -47,10 +47,10 @@ fn any_change(rng: &mut PlanRng, problem: &WorldProblem) -> WorldChange {
             Added(shape(rng, middle, size))
         }
         // What is not there cannot go.
-        3..5 => any_id(rng, problem).map_or(
-            GoalMoved(elsewhere(rng, problem, problem.goal())),
-            |id| Removed(id),
-        ),
+        3..5 => any_id(rng, problem)
+            .map_or(GoalMoved(elsewhere(rng, problem, problem.goal())), |id| {
+                Removed(id)
+            }),
         5..8 => match any_id(rng, problem) {
             Some(id) => Moved(id, any_step(rng)),
             None => StartMoved(elsewhere(rng, problem, problem.start())),
@@ -110,10 +110,13 @@ pub(super) fn ends_batch(rng: &mut PlanRng, problem: &WorldProblem) -> Vec<World
         (0, _) => vec![Added(circle(end.x, end.y, rng.random_range(0.1..1.0)))],
         (1 | 2, Some(id)) if on_end.is_empty() => match middle_of(problem, id) {
             Some(middle) => vec![Moved(id, end - middle)],
-            None => vec![],
+            None => vec![Added(circle(end.x, end.y, 0.3))],
         },
         (1..4, _) => on_end.iter().map(|&id| Removed(id)).collect(),
-        (4, _) => on_end.iter().map(|&id| Moved(id, any_step(rng) * 4.0)).collect(),
+        (4, _) => on_end
+            .iter()
+            .map(|&id| Moved(id, any_step(rng) * 4.0))
+            .collect(),
         (5, Some(id)) => match middle_of(problem, id) {
             Some(middle) if problem.world().bounds().contains(middle) => vec![moved(middle)],
             _ => vec![],
@@ -145,15 +148,19 @@ fn blockers(problem: &WorldProblem) -> impl Iterator<Item = ShapeId> + '_ {
     let shapes = problem.world().shapes();
     shapes
         .filter(move |(_, shape)| {
-            let near = |&end: &Point| shape.distance_to_point(end) <= problem.radius();
-            ends.iter().any(near)
+            let blocks = |&end: &Point| shape.blocks(&Segment::new(end, end), problem.radius());
+            ends.iter().any(blocks)
         })
         .map(|(id, _)| id)
 }
 
+/// A place that this obstacle blocks, if its middle is one.
 fn middle_of(problem: &WorldProblem, id: ShapeId) -> Option<Point> {
-    let (min, max) = problem.world().shape(id)?.bounding_box();
-    Some(min + (max - min) / 2.0)
+    let shape = problem.world().shape(id)?;
+    let (min, max) = shape.bounding_box();
+    let middle = min + (max - min) / 2.0;
+    let there = Segment::new(middle, middle);
+    shape.blocks(&there, problem.radius()).then_some(middle)
 }
 
 fn any_id(rng: &mut PlanRng, problem: &WorldProblem) -> Option<ShapeId> {

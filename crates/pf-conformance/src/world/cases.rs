@@ -40,7 +40,14 @@ fn case(
     ends: [(f64, f64); 2],
     truth: Truth<f64>,
 ) -> Case<WorldProblem> {
-    bounded(name, (-10.0, -10.0, 10.0, 10.0), shapes, radius, ends, truth)
+    bounded(
+        name,
+        (-10.0, -10.0, 10.0, 10.0),
+        shapes,
+        radius,
+        ends,
+        truth,
+    )
 }
 
 fn bounded(
@@ -113,8 +120,20 @@ fn open() -> Cases {
         ));
     }
     let corner = [(-10.0, -10.0), (10.0, 10.0)];
-    cases.push(case("from bound to bound", [], 0.5, corner, best_is(800f64.sqrt())));
-    cases.push(case("start is goal", [], 0.5, [(1.0, 1.0); 2], best_is(0.0)));
+    cases.push(case(
+        "from bound to bound",
+        [],
+        0.5,
+        corner,
+        best_is(800f64.sqrt()),
+    ));
+    cases.push(case(
+        "start is goal",
+        [],
+        0.5,
+        [(1.0, 1.0); 2],
+        best_is(0.0),
+    ));
     cases
 }
 
@@ -123,14 +142,32 @@ fn single() -> Cases {
     for radius in [0.0, 0.5, 1.5] {
         let round = round_disc(3.0, 1.0 + radius);
         let disc = circle(0.0, 0.0, 1.0);
-        cases.push(case("a circle", [disc.clone()], radius, ACROSS, best_is(round)));
+        cases.push(case(
+            "a circle",
+            [disc.clone()],
+            radius,
+            ACROSS,
+            best_is(round),
+        ));
         let inside = [disc, circle(0.3, -0.2, 0.3), block(-0.5, -0.5, 0.5, 0.5)];
-        cases.push(case("things in a circle", inside, radius, ACROSS, best_is(round)));
+        cases.push(case(
+            "things in a circle",
+            inside,
+            radius,
+            ACROSS,
+            best_is(round),
+        ));
         let round = 2.0 * round_corner(2.0, 1.0, radius) + 2.0;
         let square = || block(-1.0, -1.0, 1.0, 1.0);
         cases.push(case("a square", [square()], radius, ACROSS, best_is(round)));
         let twice = [square(), square(), circle(0.0, 0.0, 1.0)];
-        cases.push(case("a square twice", twice, radius, ACROSS, best_is(round)));
+        cases.push(case(
+            "a square twice",
+            twice,
+            radius,
+            ACROSS,
+            best_is(round),
+        ));
         // The same with corners that are none.
         let straight = corners(&[
             (-1.0, -1.0),
@@ -140,7 +177,13 @@ fn single() -> Cases {
             (1.0, 1.0),
             (-1.0, 1.0),
         ]);
-        cases.push(case("corners in line", [straight], radius, ACROSS, best_is(round)));
+        cases.push(case(
+            "corners in line",
+            [straight],
+            radius,
+            ACROSS,
+            best_is(round),
+        ));
     }
     // Half way round along the border.
     cases.push(case(
@@ -166,18 +209,44 @@ fn at_the_bounds() -> Cases {
         (0.5 + 1e-6, above(0.5 + 1e-6)),
         (1.0, above(1.0)),
     ] {
-        cases.push(bounded("the bounds as a limit", bounds, low(), radius, ACROSS, truth));
+        cases.push(bounded(
+            "the bounds as a limit",
+            bounds,
+            low(),
+            radius,
+            ACROSS,
+            truth,
+        ));
     }
     // From bound to bound: only a point passes, along the bounds.
     let flush = || [block(-1.0, -10.0, 1.0, 10.0)];
     let along = best_is(2.0 * (2f64.hypot(10.0)) + 2.0);
     cases.push(case("a wall up to the bounds", flush(), 0.0, ACROSS, along));
-    cases.push(case("a wall up to the bounds", flush(), 1e-3, ACROSS, Truth::Infeasible));
+    cases.push(case(
+        "a wall up to the bounds",
+        flush(),
+        1e-3,
+        ACROSS,
+        Truth::Infeasible,
+    ));
     let beyond = [block(-1.0, -11.0, 1.0, 11.0)];
-    cases.push(case("a wall beyond the bounds", beyond, 0.0, ACROSS, Truth::Infeasible));
+    cases.push(case(
+        "a wall beyond the bounds",
+        beyond,
+        0.0,
+        ACROSS,
+        Truth::Infeasible,
+    ));
     let disc = || [circle(0.0, 1.0, 1.0), block(-0.5, 1.5, 0.5, 12.0)];
     let bounds = (-5.0, 0.0, 5.0, 10.0);
-    cases.push(bounded("a circle on the bounds", bounds, disc(), 0.0, ACROSS, best_is(6.0)));
+    cases.push(bounded(
+        "a circle on the bounds",
+        bounds,
+        disc(),
+        0.0,
+        ACROSS,
+        best_is(6.0),
+    ));
     let (name, closed) = ("a circle on the bounds", Truth::Infeasible);
     cases.push(bounded(name, bounds, disc(), 1e-3, ACROSS, closed));
     cases
@@ -188,7 +257,13 @@ fn ends() -> Cases {
     for shape in [
         circle(0.0, 0.0, 1.0),
         block(-1.0, -1.0, 1.0, 1.0),
-        corners(&[(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (0.0, 0.5), (-1.0, 1.0)]),
+        corners(&[
+            (-1.0, -1.0),
+            (1.0, -1.0),
+            (1.0, 1.0),
+            (0.0, 0.5),
+            (-1.0, 1.0),
+        ]),
     ] {
         for radius in [0.0, 0.5] {
             let mut ends = |name, start: f64, goal: f64, truth| {
@@ -202,8 +277,18 @@ fn ends() -> Cases {
             ends("start on the border", border, -5.0, best_is(5.0 + border));
             ends("goal on the border", -5.0, border, best_is(5.0 + border));
             ends("both on the border", border, border, best_is(0.0));
-            ends("start inside by a hair", border + 1e-6, -5.0, Truth::Infeasible);
-            ends("goal inside by a hair", -5.0, border + 1e-6, Truth::Infeasible);
+            ends(
+                "start inside by a hair",
+                border + 1e-6,
+                -5.0,
+                Truth::Infeasible,
+            );
+            ends(
+                "goal inside by a hair",
+                -5.0,
+                border + 1e-6,
+                Truth::Infeasible,
+            );
         }
     }
     cases
@@ -223,9 +308,21 @@ fn walls() -> Cases {
     let mut cases = vec![];
     let ends = [(-6.0, 0.0), (0.0, 0.0)];
     for radius in [0.0, 0.5] {
-        cases.push(case("walls all around", ring(), radius, ends, Truth::Infeasible));
+        cases.push(case(
+            "walls all around",
+            ring(),
+            radius,
+            ends,
+            Truth::Infeasible,
+        ));
         let swapped = [ends[1], ends[0]];
-        cases.push(case("walls around the start", ring(), radius, swapped, Truth::Infeasible));
+        cases.push(case(
+            "walls around the start",
+            ring(),
+            radius,
+            swapped,
+            Truth::Infeasible,
+        ));
         let inside = [(-1.0, 0.0), (1.0, 0.0)];
         cases.push(case("within walls", ring(), radius, inside, best_is(2.0)));
     }
@@ -239,12 +336,30 @@ fn walls() -> Cases {
     let out = [(0.0, 0.0), (6.0, 0.0)];
     for radius in [0.25, 0.5] {
         let width = 2.0 * radius;
-        cases.push(case("a door as wide as the robot", door(width), radius, out, best_is(6.0)));
+        cases.push(case(
+            "a door as wide as the robot",
+            door(width),
+            radius,
+            out,
+            best_is(6.0),
+        ));
         let less = door(width - 1e-6);
-        cases.push(case("a door too narrow by a hair", less, radius, out, Truth::Infeasible));
+        cases.push(case(
+            "a door too narrow by a hair",
+            less,
+            radius,
+            out,
+            Truth::Infeasible,
+        ));
         let about = [(-6.0, 0.0), (3.0 + radius, 0.0)];
         let length = round_corner(3.0, 3.0, radius) + 6.0 + radius * FRAC_PI_2 + 3.0;
-        cases.push(case("round the room", ring(), radius, about, best_is(length)));
+        cases.push(case(
+            "round the room",
+            ring(),
+            radius,
+            about,
+            best_is(length),
+        ));
     }
     cases
 }
@@ -275,7 +390,12 @@ fn touching() -> Cases {
     ];
     for (name, shapes, ends, truth) in [
         ("two circles touch", discs.clone(), ACROSS, best_is(6.0)),
-        ("two circles touch, from above", discs.clone(), aside, round.clone()),
+        (
+            "two circles touch, from above",
+            discs.clone(),
+            aside,
+            round.clone(),
+        ),
         ("two circles touch, up and down", discs, through, round),
         ("two walls touch", under.to_vec(), ACROSS, best_is(6.0)),
         (
@@ -309,7 +429,13 @@ fn narrow() -> Cases {
             ("as wide as the robot", radius, true),
             ("too narrow by a hair", radius - hair / 2.0, false),
         ] {
-            let truth = |length| if straight { best_is(length) } else { Truth::Infeasible };
+            let truth = |length| {
+                if straight {
+                    best_is(length)
+                } else {
+                    Truth::Infeasible
+                }
+            };
             let walls = [block(-1.0, half, 1.0, 11.0), block(-1.0, -11.0, 1.0, -half)];
             let corridor = format!("a corridor {name}");
             cases.push(case(&corridor, walls.clone(), radius, ACROSS, truth(6.0)));
@@ -347,7 +473,13 @@ fn overlapping() -> Cases {
         let cross = [block(-1.0, -0.5, 1.0, 0.5), block(-0.5, -1.0, 0.5, 1.0)];
         // Straight to the upper corner: the nearer one lies below.
         let round = 2.0 * round_corner(2.5, 1.0, radius) + 1.0;
-        cases.push(case("two blocks cross", cross, radius, ACROSS, best_is(round)));
+        cases.push(case(
+            "two blocks cross",
+            cross,
+            radius,
+            ACROSS,
+            best_is(round),
+        ));
     }
     cases
 }
@@ -390,10 +522,22 @@ fn pockets() -> Cases {
     cases.push(case("a comb", [teeth.clone()], 0.25, [from, to], over));
     let up = round_corner(0.5, 2.2, 0.5);
     let over = best_is(2.0 * up + 1.4);
-    cases.push(case("a comb as wide as the robot", [teeth.clone()], 0.5, [from, to], over));
+    cases.push(case(
+        "a comb as wide as the robot",
+        [teeth.clone()],
+        0.5,
+        [from, to],
+        over,
+    ));
     let wide = 0.5 + 1e-6;
     let above = [(-1.0, 6.0), from];
-    cases.push(case("a comb too narrow by a hair", [teeth], wide, above, Truth::Infeasible));
+    cases.push(case(
+        "a comb too narrow by a hair",
+        [teeth],
+        wide,
+        above,
+        Truth::Infeasible,
+    ));
     cases
 }
 
@@ -418,9 +562,8 @@ fn comb(at: Point, pockets: u32, width: f64, depth: f64) -> Shape {
 fn many() -> Cases {
     let mut cases = vec![];
     // A lane between rows of discs.
-    let lattice = (0..20).flat_map(|i| {
-        (0..20).map(move |j| circle(2.0 * f64::from(i), 2.0 * f64::from(j), 0.3))
-    });
+    let lattice = (0..20)
+        .flat_map(|i| (0..20).map(move |j| circle(2.0 * f64::from(i), 2.0 * f64::from(j), 0.3)));
     let lattice: Vec<_> = lattice.collect();
     let bounds = (-3.0, -3.0, 41.0, 41.0);
     let lane = [(-2.0, 19.0), (40.0, 19.0)];
@@ -456,7 +599,13 @@ fn many() -> Cases {
     let name = "120 circles all around";
     cases.push(case(name, chain.clone(), 0.0, ends, Truth::Infeasible));
     cases.push(case(name, chain.clone(), 0.4, ends, Truth::Infeasible));
-    cases.push(case("119 circles", chain[1..].to_vec(), 0.1, ends, Truth::Solvable));
+    cases.push(case(
+        "119 circles",
+        chain[1..].to_vec(),
+        0.1,
+        ends,
+        Truth::Solvable,
+    ));
     // Whatever lies there, there is a way around it all.
     for seed in [1, 2] {
         let recipe = Recipe {
@@ -468,7 +617,11 @@ fn many() -> Cases {
         let crowd = random_world(&mut seeded(seed), &recipe);
         let (min, max) = (crowd.world().bounds().min(), crowd.world().bounds().max());
         let bounds = (min.x - 5.0, min.y - 5.0, max.x + 5.0, max.y + 5.0);
-        let shapes: Vec<_> = crowd.world().shapes().map(|(_, shape)| shape.clone()).collect();
+        let shapes: Vec<_> = crowd
+            .world()
+            .shapes()
+            .map(|(_, shape)| shape.clone())
+            .collect();
         let ends = [(bounds.0, bounds.1), (bounds.2, bounds.3)];
         let name = format!("a crowd of 250, seed {seed}");
         cases.push(bounded(&name, bounds, shapes, 0.8, ends, Truth::Solvable));

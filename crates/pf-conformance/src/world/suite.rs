@@ -117,7 +117,12 @@ pub fn listing(problem: &WorldProblem) -> String {
     // Writing to a string does not fail.
     let _ = writeln!(text, "bounds {:?} to {:?}", (min.x, min.y), (max.x, max.y));
     let _ = writeln!(text, "radius {:?}", problem.radius());
-    let _ = writeln!(text, "start {:?}, goal {:?}", (start.x, start.y), (goal.x, goal.y));
+    let _ = writeln!(
+        text,
+        "start {:?}, goal {:?}",
+        (start.x, start.y),
+        (goal.x, goal.y)
+    );
     for (id, shape) in problem.world().shapes() {
         let _ = match shape {
             Shape::Circle(c) => {

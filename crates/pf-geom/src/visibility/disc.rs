@@ -327,7 +327,8 @@ impl Room {
 /// The angle of a unit vector, counted so that it lies in an arc, if it does.
 fn place((from, to): (f64, f64), normal: Vector) -> Option<f64> {
     let angle = normal.y.atan2(normal.x);
-    [angle, angle + TAU]
+    // On the border between two counts rounding decides, and either may be the arc's.
+    [angle, angle + TAU, angle - TAU]
         .into_iter()
         .find(|&a| from - SAME_ANGLE <= a && a <= to + SAME_ANGLE)
 }
