@@ -21,9 +21,18 @@ pub(crate) struct Args {
     /// Seed of worlds and queries
     #[arg(long, default_value_t = 1)]
     seed: u64,
+    /// Only cases whose name contains this
+    #[arg(long, default_value = "")]
+    case: String,
     /// One JSON object a line
     #[arg(long)]
     json: bool,
+}
+
+impl Args {
+    fn wants(&self, case: &str) -> bool {
+        case.contains(&self.case)
+    }
 }
 
 /// The rows of one case, ours first, and what the first must not exceed in the others' times.

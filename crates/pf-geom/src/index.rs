@@ -6,6 +6,7 @@ use parry2d::{
     math::Vector as Raw,
     partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction},
 };
+use std::cell::Cell;
 
 /// A bounding volume hierarchy over numbered boxes that follows changes.
 #[derive(Clone, Default)]
@@ -91,28 +92,38 @@ impl Index {
     pub(crate) fn nearest(
         &self,
         segment: &Segment,
-        mut distance: impl FnMut(usize) -> f64,
+        distance: impl Fn(usize) -> f64,
     ) -> Option<(f64, usize)> {
-        let mut best: Option<(f64, usize)> = None;
-        // Depth first, nothing that lies farther than the best so far.
-        self.tree.traverse(|node| {
+        let (low, high) = (segment.a.inf(&segment.b), segment.a.sup(&segment.b));
+        let best: Cell<Option<(f64, usize)>> = Cell::new(None);
+        // Nearer boxes first. The tree passes over what is not less than the best so far, so
+        // boxes count as a little nearer than they are: one as near may hold a lower id.
+        let to_box = |node: &BvhNode, least: f64| {
             let (min, max) = corners(node);
-            if best.is_some_and(|(least, _)| segment.distance_to_box(min, max) > least) {
-                return TraversalAction::Prune;
+            let gap = |k: usize| (min[k] - high[k]).max(low[k] - max[k]).max(0.0);
+            let (x, y) = (gap(0), gap(1));
+            // The segment's own box is looked at first, for it takes less.
+            let far = (x * x + y * y).sqrt();
+            let far = if far < least {
+                segment.distance_to_box(min, max)
+            } else {
+                far
+            };
+            far * (1.0 - 1e-15) - f64::MIN_POSITIVE
+        };
+        let to_shape = |id: u32, _| {
+            let id = id as usize;
+            let found = distance(id);
+            let better = best.get().is_none_or(|(least, whose)| {
+                found < least || found.total_cmp(&least).is_eq() && id < whose
+            });
+            if better {
+                best.set(Some((found, id)));
             }
-            if let Some(id) = node.leaf_data() {
-                let id = id as usize;
-                let found = distance(id);
-                let better = best.is_none_or(|(least, whose)| {
-                    found < least || found.total_cmp(&least).is_eq() && id < whose
-                });
-                if better {
-                    best = Some((found, id));
-                }
-            }
-            TraversalAction::Continue
-        });
-        best
+            Some(found)
+        };
+        self.tree.find_best(f64::INFINITY, to_box, to_shape);
+        best.get()
     }
 }
 

@@ -18,14 +18,15 @@ pub(super) fn run(args: &Args, tell: &mut impl FnMut(Case) -> Result<()>) -> Res
         let shapes = shapes(&mut rng, count, true);
         World::with_shapes(square(count), shapes)
     });
-    ask(&mut rng, &worlds, "", tell)?;
+    ask(args, &mut rng, &worlds, "", tell)?;
     for world in &mut worlds {
-        change(&mut rng, world, tell)?;
+        change(args, &mut rng, world, tell)?;
     }
-    ask(&mut rng, &worlds, " after changes", tell)
+    ask(args, &mut rng, &worlds, " after changes", tell)
 }
 
 fn change(
+    args: &Args,
     rng: &mut PlanRng,
     world: &mut World,
     tell: &mut impl FnMut(Case) -> Result<()>,
@@ -58,17 +59,17 @@ fn change(
         ("World::translate", moved),
         ("World::remove", removed),
     ] {
-        tell(Case::of(
-            &format!("world of {count}"),
-            &[(what, tally)],
-            None,
-        ))?;
+        let name = format!("world of {count}");
+        if args.wants(&name) {
+            tell(Case::of(&name, &[(what, tally)], None))?;
+        }
     }
     Ok(())
 }
 
 /// Segments of the same length in both, in units of the shapes' spacing.
 fn ask(
+    args: &Args,
     rng: &mut PlanRng,
     worlds: &[World; 2],
     when: &str,
@@ -94,6 +95,10 @@ fn ask(
             ways
         });
         for (name, ask) in questions {
+            let case = format!("{name}, {spacings} long{when}");
+            if !args.wants(&case) {
+                continue;
+            }
             let mut tallies = [Tally::default(), Tally::default()];
             for batch in 0..200 {
                 let mut least = [Duration::MAX; 2];
@@ -109,7 +114,6 @@ fn ask(
                 }
             }
             let [small, large] = tallies;
-            let case = format!("{name}, {spacings} long{when}");
             let (large_name, small_name) = (format!("in {LARGE}"), format!("in {SMALL}"));
             let contenders = [(&*large_name, large), (&*small_name, small)];
             tell(Case::of(&case, &contenders, Some(3.0)))?;

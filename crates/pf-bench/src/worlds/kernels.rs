@@ -60,12 +60,25 @@ fn compare<T>(
 
 pub(super) fn run(args: &Args, tell: &mut impl FnMut(Case) -> Result<()>) -> Result<()> {
     let mut rng = PlanRng::seed_from_u64(args.seed);
+    if args.wants("segment to box") {
+        tell(segment_to_box(&mut rng))?;
+    }
+    for count in [10, 200, 10_000] {
+        let name = format!("clearance among {count}");
+        if args.wants(&name) {
+            tell(clearance(&mut rng, &name, count))?;
+        }
+    }
+    Ok(())
+}
+
+fn segment_to_box(rng: &mut PlanRng) -> Case {
     let bounds = square(1);
     let batches: Vec<Vec<_>> = (0..100)
         .map(|_| {
             let pair = |_| {
-                let (p, q) = (anywhere(&mut rng, &bounds), anywhere(&mut rng, &bounds));
-                let segment = segment_near(&mut rng, &bounds, 5.0);
+                let (p, q) = (anywhere(rng, &bounds), anywhere(rng, &bounds));
+                let segment = segment_near(rng, &bounds, 5.0);
                 let half = (p - q).abs() / 2.0;
                 let pose = Pose::from_translation(raw(middle(p, q)));
                 let theirs = Theirs::new(raw(segment.a), raw(segment.b));
@@ -75,7 +88,7 @@ pub(super) fn run(args: &Args, tell: &mut impl FnMut(Case) -> Result<()>) -> Res
             (0..BATCH).map(pair).collect()
         })
         .collect();
-    tell(compare(
+    compare(
         "segment to box",
         ("Segment::distance_to_box", "parry2d::query::distance"),
         &batches,
@@ -84,33 +97,33 @@ pub(super) fn run(args: &Args, tell: &mut impl FnMut(Case) -> Result<()>) -> Res
             distance(&Pose::IDENTITY, theirs, pose, cuboid).map_or(f64::NAN, |d| d.distance)
         },
         Some(1.0 / 3.0),
-    ))?;
-    for count in [10, 200, 10_000] {
-        let shapes = shapes(&mut rng, count, true);
-        let compound = Compound::new(shapes.iter().map(theirs).collect());
-        let world = World::with_shapes(square(count), shapes);
-        let batches: Vec<Vec<_>> = (0..20)
-            .map(|_| {
-                let query = |_| {
-                    let segment = segment_near(&mut rng, world.bounds(), 5.0);
-                    (segment, Theirs::new(raw(segment.a), raw(segment.b)))
-                };
-                (0..BATCH / 10).map(query).collect()
-            })
-            .collect();
-        tell(compare(
-            &format!("clearance among {count}"),
-            ("World::clearance", "parry2d::query::distance"),
-            &batches,
-            |(segment, _)| world.clearance(segment),
-            |(_, theirs)| {
-                distance(&Pose::IDENTITY, theirs, &Pose::IDENTITY, &compound)
-                    .map_or(f64::NAN, |d| d.distance)
-            },
-            Some(1.0),
-        ))?;
-    }
-    Ok(())
+    )
+}
+
+fn clearance(rng: &mut PlanRng, name: &str, count: u32) -> Case {
+    let shapes = shapes(rng, count, true);
+    let compound = Compound::new(shapes.iter().map(theirs).collect());
+    let world = World::with_shapes(square(count), shapes);
+    let batches: Vec<Vec<_>> = (0..20)
+        .map(|_| {
+            let query = |_| {
+                let segment = segment_near(rng, world.bounds(), 5.0);
+                (segment, Theirs::new(raw(segment.a), raw(segment.b)))
+            };
+            (0..BATCH / 10).map(query).collect()
+        })
+        .collect();
+    compare(
+        name,
+        ("World::clearance", "parry2d::query::distance"),
+        &batches,
+        |(segment, _)| world.clearance(segment),
+        |(_, theirs)| {
+            distance(&Pose::IDENTITY, theirs, &Pose::IDENTITY, &compound)
+                .map_or(f64::NAN, |d| d.distance)
+        },
+        Some(1.0),
+    )
 }
 
 fn middle(p: Point, q: Point) -> Point {

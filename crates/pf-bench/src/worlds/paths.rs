@@ -21,10 +21,17 @@ pub(super) fn run(args: &Args, tell: &mut impl FnMut(Case) -> Result<()>) -> Res
         let worlds: Vec<Vec<Shape>> = (0..args.worlds)
             .map(|_| shapes(&mut rng, count, false))
             .collect();
-        tell(fresh(args, &mut rng, &worlds, count, one_shot)?)?;
+        let name = format!("{count} shapes, one shot");
+        if args.wants(&name) {
+            tell(fresh(args, &mut rng, &worlds, &name, one_shot)?)?;
+        }
         for (name, step) in [("goal anywhere", f64::INFINITY), ("goal drifts by 2", 2.0)] {
             let name = format!("{count} shapes, {name}");
-            tell(kept(args, &mut rng, &worlds, &name, step, moved)?)?;
+            if args.wants(&name) {
+                for case in kept(args, &mut rng, &worlds, &name, step, moved)? {
+                    tell(case)?;
+                }
+            }
         }
     }
     Ok(())
@@ -35,12 +42,12 @@ fn fresh(
     args: &Args,
     rng: &mut PlanRng,
     worlds: &[Vec<Shape>],
-    count: u32,
+    name: &str,
     target: Option<f64>,
 ) -> Result<Case> {
-    let bounds = square(count);
     let mut tallies = [Tally::default(), Tally::default()];
     for shapes in worlds {
+        let bounds = square(u32::try_from(shapes.len())?);
         let world = World::with_shapes(bounds, shapes.clone());
         for _ in 0..args.queries {
             let (start, goal) = (free_place(rng, &world), free_place(rng, &world));
@@ -52,7 +59,7 @@ fn fresh(
                     let world = World::with_shapes(bounds, given);
                     let problem = WorldProblem::new(world, 0.0, start, goal).ok()?;
                     let mut planner = VisibilityGraph::default();
-                    length(planner.plan(&problem, &mut Context::seeded(0)).ok()?)
+                    length(&planner.plan(&problem, &mut Context::seeded(0)).ok()?)
                 });
                 (least[0], lengths[0]) = (least[0].min(time), length);
                 let (time, length) = timed(|| query(&mesh(&bounds, shapes), start, goal));
@@ -61,11 +68,12 @@ fn fresh(
             add(&mut tallies, least, lengths);
         }
     }
-    Ok(case(&format!("{count} shapes, one shot"), tallies, target))
+    Ok(case(name, tallies, target))
 }
 
 /// The graph and the mesh are there; only the goal is another. A graph learns from what it was
 /// asked, so a query is not asked of it twice: a repetition is the whole walk of the goal anew.
+/// The second case is the same walk once more in a graph that has seen it.
 fn kept(
     args: &Args,
     rng: &mut PlanRng,
@@ -73,11 +81,11 @@ fn kept(
     name: &str,
     step: f64,
     target: Option<f64>,
-) -> Result<Case> {
-    let mut tallies = [Tally::default(), Tally::default()];
+) -> Result<[Case; 2]> {
+    let mut tallies = [[Tally::default(), Tally::default()], Default::default()];
     for shapes in worlds {
-        let count = u32::try_from(shapes.len()).unwrap_or(u32::MAX);
-        let world = World::with_shapes(square(count), shapes.clone());
+        let bounds = square(u32::try_from(shapes.len())?);
+        let world = World::with_shapes(bounds, shapes.clone());
         let mesh = mesh(world.bounds(), shapes);
         let start = free_place(rng, &world);
         let mut goals = vec![free_place(rng, &world)];
@@ -85,29 +93,42 @@ fn kept(
             let last = goals[goals.len() - 1];
             goals.push(place_within(rng, &world, last, step));
         }
-        let mut least = vec![[Duration::MAX; 2]; goals.len()];
-        let mut lengths = vec![[None; 2]; goals.len()];
-        for _ in 0..REPETITIONS {
-            let mut problem = WorldProblem::new(world.clone(), 0.0, start, goals[0])?;
+        let first = goals.remove(0);
+        let mut least = vec![[[Duration::MAX; 2]; 2]; goals.len()];
+        let mut lengths = vec![[[None; 2]; 2]; goals.len()];
+        for repetition in 0..REPETITIONS {
+            let mut problem = WorldProblem::new(world.clone(), 0.0, start, first)?;
             let mut planner = VisibilityGraph::default();
             planner.plan(&problem, &mut Context::seeded(0))?;
-            for (k, &goal) in goals.iter().enumerate().skip(1) {
-                let moved = [WorldChange::GoalMoved(goal)];
-                let (time, found) = timed(|| {
-                    let revision = problem.revise(&moved).ok()?;
-                    let cx = &mut Context::seeded(0);
-                    length(planner.replan(&revision, cx).ok()?)
-                });
-                (least[k][0], lengths[k][0]) = (least[k][0].min(time), found);
-                let (time, found) = timed(|| query(&mesh, start, goal));
-                (least[k][1], lengths[k][1]) = (least[k][1].min(time), found);
+            for walk in 0..2 {
+                for (k, &goal) in goals.iter().enumerate() {
+                    let (least, lengths) = (&mut least[k][walk], &mut lengths[k][walk]);
+                    let moved = [WorldChange::GoalMoved(goal)];
+                    let (time, report) = timed(|| {
+                        let revision = problem.revise(&moved).ok()?;
+                        planner.replan(&revision, &mut Context::seeded(0)).ok()
+                    });
+                    least[0] = least[0].min(time);
+                    if let Some(report) = report.filter(|_| repetition == 0) {
+                        tallies[walk][0].expanded += report.stats.expanded;
+                        lengths[0] = length(&report);
+                    }
+                    let (time, found) = timed(|| query(&mesh, start, goal));
+                    (least[1], lengths[1]) = (least[1].min(time), found);
+                }
             }
         }
-        for (least, lengths) in least.into_iter().zip(lengths).skip(1) {
-            add(&mut tallies, least, lengths);
+        for (least, lengths) in least.into_iter().zip(lengths) {
+            for walk in 0..2 {
+                add(&mut tallies[walk], least[walk], lengths[walk]);
+            }
         }
     }
-    Ok(case(name, tallies, target))
+    let [learning, known] = tallies;
+    Ok([
+        case(name, learning, target),
+        case(&format!("{name} again"), known, target),
+    ])
 }
 
 fn case(name: &str, [ours, theirs]: [Tally; 2], target: Option<f64>) -> Case {
@@ -133,7 +154,7 @@ fn add(tallies: &mut [Tally; 2], least: [Duration; 2], lengths: [Option<f64>; 2]
     tallies[1].mismatches += u64::from(!theirs_is_right);
 }
 
-fn length(report: Report<WorldProblem>) -> Option<f64> {
+fn length(report: &Report<WorldProblem>) -> Option<f64> {
     report.outcome.solved().map(|best| best.cost)
 }
 
