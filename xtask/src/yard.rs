@@ -296,7 +296,10 @@ impl Yard {
                 let last = self.world.shape(self.world.next_id() - 1);
                 if let Some(Shape::Rectangle(last)) = last {
                     let (left, bottom) = (last.max().x, last.min().y);
-                    self.add("pallet", rectangle([left, bottom, left + 1.2, bottom + 0.8]));
+                    self.add(
+                        "pallet",
+                        rectangle([left, bottom, left + 1.2, bottom + 0.8]),
+                    );
                 }
             }
         }
@@ -377,8 +380,7 @@ mod tests {
     fn the_way_to_the_canteen_is_a_detour() {
         let yard = read_world(&worlds().join("yard.toml")).unwrap();
         let robot = &yard.robots[0];
-        let problem =
-            WorldProblem::new(yard.world, robot.radius, robot.start, robot.goal).unwrap();
+        let problem = WorldProblem::new(yard.world, robot.radius, robot.start, robot.goal).unwrap();
         let mut planner = VisibilityGraph::default();
         let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
         let length = report.outcome.solved().expect("a way").cost;

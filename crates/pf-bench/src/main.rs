@@ -8,6 +8,7 @@ mod grid;
 mod memory;
 mod peers;
 mod protocol;
+mod worlds;
 
 use anyhow::Result;
 use clap::Parser;
@@ -26,11 +27,14 @@ enum Suite {
     Grid(grid::Args),
     /// Bytes a cell that planners take on grids of 4096 x 4096
     Memory(memory::Args),
+    /// Kernels, shortest paths and changes among shapes, and their peers
+    Worlds(worlds::Args),
 }
 
 fn main() -> Result<()> {
     match Cli::parse().suite {
         Suite::Grid(args) => grid::run(&args),
         Suite::Memory(args) => memory::run(&args),
+        Suite::Worlds(args) => worlds::run(&args),
     }
 }

@@ -46,7 +46,7 @@ pub fn kind_of(path: &Path) -> Result<FileKind, FileError> {
     })
 }
 
-/// Reads a map of any kind: what [`load_grid`](crate::load_grid) reads, world TOML, GeoJSON.
+/// Reads a map of any kind: what [`load_grid`](crate::load_grid) reads, world TOML, `GeoJSON`.
 ///
 /// # Errors
 /// [`FileError`] if the file cannot be read or is not a map.
@@ -139,10 +139,7 @@ enum Format {
 
 fn look(path: &Path, bytes: &[u8]) -> Result<Format, FileError> {
     let name = path.display().to_string();
-    let source = Source {
-        name: &name,
-        bytes,
-    };
+    let source = Source { name: &name, bytes };
     match extension(path).as_deref() {
         Some("geojson" | "json") => return Ok(Format::GeoJson),
         Some("toml") => return toml_kind(source).map(Format::Toml),

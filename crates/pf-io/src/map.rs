@@ -46,7 +46,7 @@ pub enum Unknown {
 pub struct LoadOptions {
     /// What unknown cells of a ROS map count as.
     pub unknown: Unknown,
-    /// How far the bounds of a GeoJSON world without a `bbox` lie from its shapes, in its unit;
+    /// How far the bounds of a `GeoJSON` world without a `bbox` lie from its shapes, in its unit;
     /// without a word, a tenth of the longer side of the shapes' box.
     pub margin: Option<f64>,
 }
@@ -61,23 +61,16 @@ pub fn load_grid(path: &Path, options: &LoadOptions) -> Result<GridMap, FileErro
 }
 
 /// The grid in a file of this content.
-pub(crate) fn grid(
-    path: &Path,
-    bytes: &[u8],
-    options: &LoadOptions,
-) -> Result<GridMap, FileError> {
+pub(crate) fn grid(path: &Path, bytes: &[u8], options: &LoadOptions) -> Result<GridMap, FileError> {
     let name = path.display().to_string();
     let extension = path.extension().map(OsStr::to_ascii_lowercase);
     let source = Source { name: &name, bytes };
     let by_name = extension.as_deref().and_then(|e| Kind::named(e.to_str()?));
-    let kind = match by_name.or_else(|| Kind::of(&source)) {
-        Some(kind) => kind,
-        None => {
-            let head = String::from_utf8_lossy(&bytes[..bytes.len().min(64)]);
-            let first = quoted(head.lines().next().unwrap_or(""));
-            let expected = "a map: Moving AI .map, ROS .yaml, .png or .pgm";
-            return Err(source.error(Place::Whole, first, expected));
-        }
+    let Some(kind) = by_name.or_else(|| Kind::of(&source)) else {
+        let head = String::from_utf8_lossy(&bytes[..bytes.len().min(64)]);
+        let first = quoted(head.lines().next().unwrap_or(""));
+        let expected = "a map: Moving AI .map, ROS .yaml, .png or .pgm";
+        return Err(source.error(Place::Whole, first, expected));
     };
     let (grid, frame) = match kind {
         Kind::MovingAi => (movingai::parse_movingai(&name, bytes)?, None),

@@ -169,7 +169,10 @@ impl<'a> Value<'a> {
         })
     }
 
-    pub(crate) fn array(&self, of: &str) -> Result<impl Iterator<Item = Value<'a>> + use<'a>, FileError> {
+    pub(crate) fn array(
+        &self,
+        of: &str,
+    ) -> Result<impl Iterator<Item = Value<'a>> + use<'a>, FileError> {
         let expected = || self.error(format!("an array of {of}"));
         let array = self.content.as_array().ok_or_else(expected)?;
         let file = self.file;

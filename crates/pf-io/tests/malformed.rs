@@ -7,9 +7,7 @@ mod worlds;
 
 use peak_alloc::PeakAlloc;
 use pf_core::Clock;
-use pf_io::{
-    FileError, LoadOptions, load_grid, load_map, load_scenario, read_scen, read_scenario,
-};
+use pf_io::{FileError, LoadOptions, load_grid, load_map, load_scenario, read_scen, read_scenario};
 use std::{fs, path::Path, time::Duration};
 
 #[global_allocator]

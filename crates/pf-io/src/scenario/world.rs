@@ -132,16 +132,15 @@ fn robot<'m>(name: Option<Value<'_>>, map: &'m WorldFile) -> Result<Option<&'m R
     };
     let name = value.string()?;
     let mut robots = map.robots.iter();
-    match robots.find(|robot| robot.name.as_deref() == Some(name)) {
-        Some(robot) => Ok(Some(robot)),
-        None => {
-            let names: Vec<&str> = map.robots.iter().flat_map(|r| r.name.as_deref()).collect();
-            Err(value.error(match &names[..] {
-                [] => "no \"robot\": the world has none with a name".to_owned(),
-                names => format!("the name of a robot: one of {}", names.join(", ")),
-            }))
-        }
+    if let Some(robot) = robots.find(|robot| robot.name.as_deref() == Some(name)) {
+        return Ok(Some(robot));
     }
+    let named = map.robots.iter().filter_map(|r| r.name.as_deref());
+    let names: Vec<&str> = named.collect();
+    Err(value.error(match &names[..] {
+        [] => "no \"robot\": the world has none with a name".to_owned(),
+        names => format!("the name of a robot: one of {}", names.join(", ")),
+    }))
 }
 
 fn nonsense(table: &Table<'_>, error: &InvalidProblem) -> FileError {

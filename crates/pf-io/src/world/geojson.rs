@@ -15,10 +15,7 @@ use crate::{
     toml_tree::{A_NUMBER, LARGEST},
     write,
 };
-use ::geojson::{
-    Feature, Geometry, GeometryValue, JsonObject, JsonValue, Position,
-    feature::Id,
-};
+use ::geojson::{Feature, Geometry, GeometryValue, JsonObject, JsonValue, Position, feature::Id};
 use pf_core::InvalidProblem;
 use pf_geom::{Circle, Point, Polygon, Rectangle, Shape, Vector, World};
 use serde::{Deserialize, Serialize, de::DeserializeOwned};
@@ -48,11 +45,7 @@ pub fn parse_geojson(name: &str, bytes: &[u8], margin: f64) -> Result<WorldFile,
 }
 
 /// Without a margin, a tenth of the longer side of the shapes' box.
-pub(crate) fn parse(
-    name: &str,
-    bytes: &[u8],
-    margin: Option<f64>,
-) -> Result<WorldFile, FileError> {
+pub(crate) fn parse(name: &str, bytes: &[u8], margin: Option<f64>) -> Result<WorldFile, FileError> {
     let source = Source { name, bytes };
     let text = source.text()?;
     let mut reader = Reader {
@@ -269,12 +262,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn circle(
-        &mut self,
-        centre: &Position,
-        part: &str,
-        about: About<'_>,
-    ) -> Result<(), FileError> {
+    fn circle(&mut self, centre: &Position, part: &str, about: About<'_>) -> Result<(), FileError> {
         let centre = self.point(centre, part)?;
         let Some(radius) = about.properties.get("radius") else {
             let found = "a Point without a property \"radius\"";
@@ -432,7 +420,10 @@ impl<'a> Reader<'a> {
             }
             let speed = member.speed.unwrap_or(1.0);
             if !(0.0..=LARGEST).contains(&member.radius) || !(speed > 0.0 && speed <= LARGEST) {
-                let found = format!("radius {:?} and speed {speed:?} of robot {k}", member.radius);
+                let found = format!(
+                    "radius {:?} and speed {speed:?} of robot {k}",
+                    member.radius
+                );
                 return Err(self.error(part, found, "a radius from 0 and a speed above 0"));
             }
             Ok(Robot {
