@@ -135,8 +135,8 @@ fn robot<'m>(name: Option<Value<'_>>, map: &'m WorldFile) -> Result<Option<&'m R
     if let Some(robot) = robots.find(|robot| robot.name.as_deref() == Some(name)) {
         return Ok(Some(robot));
     }
-    let named = map.robots.iter().filter_map(|r| r.name.as_deref());
-    let names: Vec<&str> = named.collect();
+    let known = map.robots.iter().filter_map(|r| r.name.as_deref());
+    let names: Vec<&str> = known.collect();
     Err(value.error(match &names[..] {
         [] => "no \"robot\": the world has none with a name".to_owned(),
         names => format!("the name of a robot: one of {}", names.join(", ")),
