@@ -179,9 +179,9 @@ mod tests {
     fn it_says_what_stands_in_the_way_in_worlds() {
         let point = Robot::default();
         check_world(
-            [5.0, 5.0],
+            [4.9, 5.0],
             point,
-            "the start 5,5 lies in shape 0, a rectangle; near by it fits at 3.949,5",
+            "the start 4.9,5 lies in shape 0, a rectangle; near by it fits at 3.949,5",
         );
         check_world(
             [3.5, 5.0],

@@ -145,10 +145,13 @@ pub(crate) trait Query: Sized {
     fn followed(&self, place: usize, table: &Table<'_>, name: String) -> Result<Self, FileError>;
 }
 
+/// Gives the map that a scenario names.
+type Load<'l, M> = dyn FnMut(&str, &LoadOptions) -> Result<M, FileError> + 'l;
+
 fn parse<C: Query>(
     name: &str,
     bytes: &[u8],
-    load: &mut dyn FnMut(&str, &LoadOptions) -> Result<C::Map, FileError>,
+    load: &mut Load<'_, C::Map>,
 ) -> Result<Scenario<C>, FileError> {
     let source = Source { name, bytes };
     let file = File {

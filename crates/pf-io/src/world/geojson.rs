@@ -370,12 +370,9 @@ impl<'a> Reader<'a> {
         let part = raw.get();
         let expected = "a bbox [xmin, ymin, xmax, ymax]";
         let numbers: Vec<f64> = self.of_ours(part, expected)?;
-        let [xmin, ymin, xmax, ymax] = match numbers[..] {
-            [a, b, c, d] | [a, b, _, c, d, _] => [a, b, c, d],
-            _ => {
-                let found = format!("a bbox of {} numbers", numbers.len());
-                return Err(self.error(part, found, "4: [xmin, ymin, xmax, ymax]"));
-            }
+        let ([xmin, ymin, xmax, ymax] | [xmin, ymin, _, xmax, ymax, _]) = numbers[..] else {
+            let found = format!("a bbox of {} numbers", numbers.len());
+            return Err(self.error(part, found, "4: [xmin, ymin, xmax, ymax]"));
         };
         if numbers.iter().any(|n| n.abs() > LARGEST) {
             return Err(self.error(part, quoted(part), format!("each {A_NUMBER}")));
@@ -419,7 +416,7 @@ impl<'a> Reader<'a> {
                 }
             }
             let speed = member.speed.unwrap_or(1.0);
-            if !(0.0..=LARGEST).contains(&member.radius) || !(speed > 0.0 && speed <= LARGEST) {
+            if !((0.0..=LARGEST).contains(&member.radius) && speed > 0.0 && speed <= LARGEST) {
                 let found = format!(
                     "radius {:?} and speed {speed:?} of robot {k}",
                     member.radius
@@ -439,6 +436,10 @@ impl<'a> Reader<'a> {
 }
 
 /// The corners of the upright rectangle that a border is, if it is one.
+#[expect(
+    clippy::float_cmp,
+    reason = "the same numbers in the file, or it is none"
+)]
 fn upright(corners: &[Point]) -> Option<(Point, Point)> {
     let &[a, b, c, d] = corners else {
         return None;
