@@ -292,7 +292,7 @@ impl Yard {
         while self.names.len() < SHAPES {
             self.place("pallet", 1.5, |[x, y]| pallet(x, y));
             // Every other one has another right beside it.
-            if self.names.len() + 1 < SHAPES && self.names.len() % 2 == 0 {
+            if self.names.len() + 1 < SHAPES && self.names.len().is_multiple_of(2) {
                 let last = self.world.shape(self.world.next_id() - 1);
                 if let Some(Shape::Rectangle(last)) = last {
                     let (left, bottom) = (last.max().x, last.min().y);
@@ -314,7 +314,7 @@ impl Yard {
             let kept_free = [START, GOAL].map(Point::from);
             let room = self.world.clearance_at(at) > reach + GAP
                 && kept_free.iter().all(|p| (p - at).norm() > reach + 2.0)
-                && self.leaves_lanes(at, reach);
+                && Self::leaves_lanes(at, reach);
             if room {
                 self.add(name, shape([x, y]));
                 return;
@@ -323,7 +323,7 @@ impl Yard {
     }
 
     /// The gates and the canteen's door stay free.
-    fn leaves_lanes(&self, at: Point, reach: f64) -> bool {
+    fn leaves_lanes(at: Point, reach: f64) -> bool {
         let lane = |x: f64, y: f64, dx: f64, dy: f64| {
             let from = Point::new(x, y);
             Segment::new(from, from + Vector::new(dx, dy)).distance_to_point(at) > reach + GAP

@@ -41,6 +41,7 @@ Examples:
   pf plan yard.toml --from 2.5,-1 --to 40,30 --radius 0.4 --planner astar --cell 0.1
   pf plan island.map --from 5,5 --to 90,90 --nearest
   pf plan arena.map --scen arena.map.scen --limit 100")]
+#[expect(clippy::struct_excessive_bools, reason = "a switch each")]
 pub(crate) struct Args {
     /// A map or a scenario
     map: PathBuf,

@@ -203,15 +203,15 @@ pub fn world_rogues() -> Vec<WorldRogue> {
     const SOUND: &str = "sound";
     vec![
         WorldRogue::planner(SOUND, "cuts corners by 1e-6", ALL, |_, problem, cx| {
-            for_another(problem, cx, |problem| {
+            Ok(for_another(problem, cx, |problem| {
                 resized(problem, (problem.radius() - 1e-6).max(0.0))
-            })
+            }))
         }),
         WorldRogue::planner(SOUND, "ignores the radius", ALL, |_, problem, cx| {
-            for_another(problem, cx, |problem| resized(problem, 0.0))
+            Ok(for_another(problem, cx, |problem| resized(problem, 0.0)))
         }),
         WorldRogue::planner(SOUND, "leaves the bounds", ALL, |_, problem, cx| {
-            for_another(problem, cx, unbounded)
+            Ok(for_another(problem, cx, unbounded))
         }),
         WorldRogue::planner(
             "honest cost",
@@ -298,7 +298,7 @@ fn for_another(
     problem: &WorldProblem,
     cx: &mut Cx<'_>,
     change: impl FnOnce(&WorldProblem) -> Option<WorldProblem>,
-) -> Answer {
+) -> Report<WorldProblem> {
     let other = change(problem);
     let found = search(other.as_ref().unwrap_or(problem), |place| {
         let goes_on = cx.proceed();
@@ -307,14 +307,14 @@ fn for_another(
         }
         goes_on
     });
-    Ok(match found {
+    match found {
         Found::Path(Shortest { length, path }) => {
             let cost = problem.judge(&path).unwrap_or(length);
             state(cx, true, path, cost)
         }
         Found::Nothing => cx.report(Outcome::Infeasible),
         Found::Stopped => cx.report(Outcome::Unknown { attempt: None }),
-    })
+    }
 }
 
 /// Announces and reports a solution as it is, right or wrong.

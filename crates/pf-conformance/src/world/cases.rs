@@ -4,9 +4,10 @@ use super::{
     generate::{Kind, Recipe, random_world},
     shapes::{circle, polygon, rectangle},
     suite::best_is,
+    tight,
 };
 use crate::{Case, Truth, seeded};
-use pf_geom::{Point, Rectangle, Shape, Vector, World, WorldProblem};
+use pf_geom::{Point, Rectangle, Shape, World, WorldProblem};
 use std::f64::consts::{FRAC_PI_2, PI};
 
 /// Worlds with a point, each with the truth about it.
@@ -21,19 +22,19 @@ pub fn cases() -> Vec<Case<WorldProblem>> {
         at_the_bounds(),
         ends(),
         walls(),
-        touching(),
-        narrow(),
-        overlapping(),
-        pockets(),
+        tight::touching(),
+        tight::narrow(),
+        tight::overlapping(),
+        tight::pockets(),
         many(),
     ]
     .concat()
 }
 
-type Cases = Vec<Case<WorldProblem>>;
+pub(super) type Cases = Vec<Case<WorldProblem>>;
 
 /// From point to point in a square from -10 to 10.
-fn case(
+pub(super) fn case(
     name: &str,
     shapes: impl IntoIterator<Item = Shape>,
     radius: f64,
@@ -68,20 +69,20 @@ fn bounded(
     }
 }
 
-fn block(left: f64, low: f64, right: f64, high: f64) -> Shape {
+pub(super) fn block(left: f64, low: f64, right: f64, high: f64) -> Shape {
     rectangle(Point::new(left, low), Point::new(right, high))
 }
 
-fn corners(corners: &[(f64, f64)]) -> Shape {
+pub(super) fn corners(corners: &[(f64, f64)]) -> Shape {
     polygon(corners.iter().map(|&(x, y)| Point::new(x, y)).collect())
 }
 
 /// From left to right past the origin.
-const ACROSS: [(f64, f64); 2] = [(-3.0, 0.0), (3.0, 0.0)];
+pub(super) const ACROSS: [(f64, f64); 2] = [(-3.0, 0.0), (3.0, 0.0)];
 
 /// The way to where a path touches a disc: its length, and the angle between it and the line to
 /// the disc's centre. `apart` leads from the end to the centre.
-fn tangent(apart: (f64, f64), radius: f64) -> (f64, f64) {
+pub(super) fn tangent(apart: (f64, f64), radius: f64) -> (f64, f64) {
     let distance = apart.0.hypot(apart.1);
     let length = (distance * distance - radius * radius).sqrt();
     (length, (radius / distance).asin())
@@ -89,7 +90,7 @@ fn tangent(apart: (f64, f64), radius: f64) -> (f64, f64) {
 
 /// From an end round a corner to where the path goes on along an axis: the corner lies `ahead`
 /// along it and `aside` from it.
-fn round_corner(ahead: f64, aside: f64, radius: f64) -> f64 {
+pub(super) fn round_corner(ahead: f64, aside: f64, radius: f64) -> f64 {
     let (length, lean) = tangent((ahead, aside), radius);
     length + radius * (aside.atan2(ahead) + lean)
 }
@@ -362,201 +363,6 @@ fn walls() -> Cases {
         ));
     }
     cases
-}
-
-/// What closes the way above and below but for the middle.
-fn rest() -> [Shape; 2] {
-    [block(-0.5, 1.5, 0.5, 11.0), block(-0.5, -11.0, 0.5, -1.5)]
-}
-
-fn touching() -> Cases {
-    let mut cases = vec![];
-    let discs = [circle(0.0, 1.0, 1.0), circle(0.0, -1.0, 1.0)];
-    let discs = [discs.to_vec(), rest().to_vec()].concat();
-    // Round the upper disc to where they touch.
-    let (length, lean) = tangent((3.0, 0.0), 1.0);
-    let round = best_is(2.0 * (length + lean));
-    let aside = [(-3.0, 1.0), (3.0, 1.0)];
-    let through = [(-3.0, 1.0), (3.0, -1.0)];
-    let under = [block(-1.0, 0.0, 1.0, 11.0), block(-1.0, -11.0, 1.0, 0.0)];
-    let diagonal = [block(-1.0, 0.0, 0.0, 11.0), block(0.0, -11.0, 1.0, 0.0)];
-    let resting = [circle(0.0, 1.0, 1.0), block(-1.0, -11.0, 1.0, 0.0)];
-    let resting = [resting.to_vec(), rest()[..1].to_vec()].concat();
-    let triangle = corners(&[(0.0, 0.0), (1.0, 2.0), (-1.0, 2.0)]);
-    let tip = vec![
-        triangle,
-        block(-0.2, 1.5, 0.2, 11.0),
-        block(-1.0, -11.0, 1.0, 0.0),
-    ];
-    for (name, shapes, ends, truth) in [
-        ("two circles touch", discs.clone(), ACROSS, best_is(6.0)),
-        (
-            "two circles touch, from above",
-            discs.clone(),
-            aside,
-            round.clone(),
-        ),
-        ("two circles touch, up and down", discs, through, round),
-        ("two walls touch", under.to_vec(), ACROSS, best_is(6.0)),
-        (
-            "two corners touch",
-            diagonal.to_vec(),
-            [(-3.0, -1.0), (3.0, 1.0)],
-            best_is(2.0 * 10f64.sqrt()),
-        ),
-        (
-            "two corners touch, with a turn",
-            diagonal.to_vec(),
-            [(-3.0, -1.0), (3.0, 2.0)],
-            best_is(10f64.sqrt() + 13f64.sqrt()),
-        ),
-        ("a circle touches a wall", resting, ACROSS, best_is(6.0)),
-        ("a corner touches a wall", tip, ACROSS, best_is(6.0)),
-    ] {
-        cases.push(case(name, shapes.clone(), 0.0, ends, truth));
-        cases.push(case(name, shapes, 1e-3, ends, Truth::Infeasible));
-    }
-    cases
-}
-
-fn narrow() -> Cases {
-    let mut cases = vec![];
-    let hair = 1e-6;
-    for radius in [0.1f64, 0.5, 1.0] {
-        // The way in from the side bends round the upper corner into the corridor.
-        let bent = round_corner(2.0, 2.0 - radius, radius);
-        for (name, half, straight) in [
-            ("as wide as the robot", radius, true),
-            ("too narrow by a hair", radius - hair / 2.0, false),
-        ] {
-            let truth = |length| {
-                if straight {
-                    best_is(length)
-                } else {
-                    Truth::Infeasible
-                }
-            };
-            let walls = [block(-1.0, half, 1.0, 11.0), block(-1.0, -11.0, 1.0, -half)];
-            let corridor = format!("a corridor {name}");
-            cases.push(case(&corridor, walls.clone(), radius, ACROSS, truth(6.0)));
-            let side = [(-3.0, 2.0), (3.0, 0.0)];
-            let (name, from_side) = (format!("{corridor}, from the side"), bent + 4.0);
-            cases.push(case(&name, walls, radius, side, truth(from_side)));
-            let discs = [circle(0.0, 1.0 + half, 1.0), circle(0.0, -1.0 - half, 1.0)];
-            let (up, down) = (1.5 + half, -1.5 - half);
-            let behind = [block(-0.5, up, 0.5, 12.0), block(-0.5, -12.0, 0.5, down)];
-            let gap = [discs, behind].concat();
-            let name = corridor.replace("corridor", "gap between circles");
-            cases.push(case(&name, gap, radius, ACROSS, truth(6.0)));
-            // A wedge that opens both ways, its narrowest place between two corners.
-            let wedge = [
-                corners(&[(0.0, half), (2.0, 2.0 + half), (-2.0, 2.0 + half)]),
-                corners(&[(0.0, -half), (-2.0, -2.0 - half), (2.0, -2.0 - half)]),
-                block(-1.0, 1.5 + half, 1.0, 14.0),
-                block(-1.0, -14.0, 1.0, -1.5 - half),
-            ];
-            let name = corridor.replace("corridor", "gap between corners");
-            cases.push(case(&name, wedge, radius, ACROSS, truth(6.0)));
-        }
-    }
-    cases
-}
-
-fn overlapping() -> Cases {
-    let mut cases = vec![];
-    for radius in [0.0, 0.5] {
-        let grown = 1.0 + radius;
-        let (length, lean) = tangent((2.5, 0.0), grown);
-        let pair = [circle(-0.5, 0.0, 1.0), circle(0.5, 0.0, 1.0)];
-        let over = best_is(2.0 * (length + grown * lean) + 1.0);
-        cases.push(case("two circles overlap", pair, radius, ACROSS, over));
-        let cross = [block(-1.0, -0.5, 1.0, 0.5), block(-0.5, -1.0, 0.5, 1.0)];
-        // Straight to the upper corner: the nearer one lies below.
-        let round = 2.0 * round_corner(2.5, 1.0, radius) + 1.0;
-        cases.push(case(
-            "two blocks cross",
-            cross,
-            radius,
-            ACROSS,
-            best_is(round),
-        ));
-    }
-    cases
-}
-
-fn pockets() -> Cases {
-    let mut cases = vec![];
-    let cup = corners(&[
-        (0.0, 0.0),
-        (4.0, 0.0),
-        (4.0, 3.0),
-        (3.0, 3.0),
-        (3.0, 1.0),
-        (1.0, 1.0),
-        (1.0, 3.0),
-        (0.0, 3.0),
-    ]);
-    for radius in [0.0, 0.5, 1.0] {
-        // Up and over, then down, then back under.
-        let out = round_corner(1.0, 1.0, radius);
-        let rest = 1.0 + radius * FRAC_PI_2 + 3.0 + round_corner(2.0, 2.0, radius);
-        let truth = best_is(out + rest);
-        let ends = [(2.0, 2.0), (2.0, -2.0)];
-        cases.push(case("out of a cup", [cup.clone()], radius, ends, truth));
-    }
-    let ends = [(2.0, 2.0), (2.0, -2.0)];
-    let cup = [cup];
-    let (name, hair) = ("out of a cup", 1.0 + 1e-6);
-    cases.push(case(name, cup.clone(), hair, ends, Truth::Infeasible));
-    let down = [(5.5, 5.0), (2.0, 2.0)];
-    cases.push(case(name, cup, hair, down, Truth::Infeasible));
-    // From one pocket into the next but one: over two teeth, or all in one piece.
-    let teeth = comb(Point::new(-5.0, -2.0), 6, 1.0, 3.0);
-    let from = (-5.0 + 0.2 + 0.5, -1.0);
-    let to = (from.0 + 2.4, -1.0);
-    let up = 0.5f64.hypot(2.2);
-    let over = best_is(2.0 * up + 1.4);
-    cases.push(case("a comb", [teeth.clone()], 0.0, [from, to], over));
-    let up = round_corner(0.5, 2.2, 0.25);
-    let over = best_is(2.0 * up + 1.4);
-    cases.push(case("a comb", [teeth.clone()], 0.25, [from, to], over));
-    let up = round_corner(0.5, 2.2, 0.5);
-    let over = best_is(2.0 * up + 1.4);
-    cases.push(case(
-        "a comb as wide as the robot",
-        [teeth.clone()],
-        0.5,
-        [from, to],
-        over,
-    ));
-    let wide = 0.5 + 1e-6;
-    let above = [(-1.0, 6.0), from];
-    cases.push(case(
-        "a comb too narrow by a hair",
-        [teeth],
-        wide,
-        above,
-        Truth::Infeasible,
-    ));
-    cases
-}
-
-/// A comb with its teeth up: pockets to get lost in.
-fn comb(at: Point, pockets: u32, width: f64, depth: f64) -> Shape {
-    let wall = 0.2;
-    let all = f64::from(pockets) * (width + wall) + wall;
-    let mut corners = vec![at, at + Vector::new(all, 0.0)];
-    for k in (0..=pockets).rev() {
-        let left = f64::from(k) * (width + wall);
-        let mut corner = |x, y| corners.push(at + Vector::new(x, y));
-        corner(left + wall, wall + depth);
-        corner(left, wall + depth);
-        if k > 0 {
-            corner(left, wall);
-            corner(left - width, wall);
-        }
-    }
-    polygon(corners)
 }
 
 fn many() -> Cases {

@@ -237,7 +237,9 @@ fn corridors(rng: &mut PlanRng, number: usize, recipe: &Recipe) -> Draft {
 
 fn rooms(rng: &mut PlanRng, number: usize, recipe: &Recipe) -> Draft {
     // A wall with a door is two shapes, and n * n rooms have 2 * n * (n - 1) walls between them.
-    let across = (2..).take_while(|n| 4 * n * (n - 1) <= number).last();
+    let across = (2..=number)
+        .take_while(|n| 4 * n * (n - 1) <= number)
+        .last();
     let across = across.unwrap_or(1);
     let room = 4.0 * recipe.radius + rng.random_range(3.0..6.0);
     let mut draft = Draft::of_side(count(across) * room);
@@ -266,16 +268,16 @@ fn rooms(rng: &mut PlanRng, number: usize, recipe: &Recipe) -> Draft {
 }
 
 fn closed(rng: &mut PlanRng, number: usize, recipe: &Recipe) -> Draft {
-    let ring = 2.0 * recipe.radius + rng.random_range(2.0..4.0);
-    let least = 3.0 * ring + 2.0 * recipe.radius + 2.0;
+    let distance = 2.0 * recipe.radius + rng.random_range(2.0..4.0);
+    let least = 3.0 * distance + 2.0 * recipe.radius + 2.0;
     let mut draft = Draft::of_side(side(number, recipe).max(least));
-    let range = 1.5 * ring..draft.side() - 1.5 * ring;
+    let range = 1.5 * distance..draft.side() - 1.5 * distance;
     let middle = Point::new(rng.random_range(range.clone()), rng.random_range(range));
     if number < 14 || rng.random_bool(0.2) {
         // Four walls.
-        let out = ring + rng.random_range(0.2..1.0);
+        let out = distance + rng.random_range(0.2..1.0);
         for turn in 0..4 {
-            let (low, high) = (Vector::new(ring, -out), Vector::new(out, out));
+            let (low, high) = (Vector::new(distance, -out), Vector::new(out, out));
             let turned = |v: Vector| (0..turn).fold(v, |v, _| Vector::new(-v.y, v.x));
             let (a, b) = (middle + turned(low), middle + turned(high));
             draft.shapes.push(rectangle(a.inf(&b), a.sup(&b)));
@@ -285,13 +287,13 @@ fn closed(rng: &mut PlanRng, number: usize, recipe: &Recipe) -> Draft {
     }
     // Each holds a disc, and the discs overlap.
     let links = rng.random_range(12..=number.min(24));
-    let disc = 1.1 * ring * (TAU / 2.0 / count(links)).sin();
+    let disc = 1.1 * distance * (TAU / 2.0 / count(links)).sin();
     for k in 0..links {
         let angle = count(k) / count(links) * TAU;
-        let at = middle + Vector::new(angle.cos(), angle.sin()) * ring;
+        let at = middle + Vector::new(angle.cos(), angle.sin()) * distance;
         draft.shapes.push(fitted(rng, at, disc));
     }
-    draft.inside = Some((middle, 1.5 * ring));
+    draft.inside = Some((middle, 1.5 * distance));
     draft
 }
 
@@ -316,13 +318,15 @@ mod tests {
                 };
                 let problem = random_world(&mut rng, &recipe);
                 assert!(recipe.shapes.contains(&problem.world().shapes().count()));
-                let Some(best) = oracle(&problem) else {
+                let Some(shortest) = oracle(&problem) else {
                     continue;
                 };
                 solvable += 1;
-                bent += usize::from(best.path.len() > 2);
-                let cost = problem.judge(&best.path).expect("a path that keeps clear");
-                assert!(best.length - 1e-6 <= cost && cost <= best.length + SLACK);
+                bent += usize::from(shortest.path.len() > 2);
+                let cost = problem
+                    .judge(&shortest.path)
+                    .expect("a path that keeps clear");
+                assert!(shortest.length - 1e-6 <= cost && cost <= shortest.length + SLACK);
             }
             if kind == Kind::Closed {
                 assert_eq!(solvable, 0);

@@ -9,6 +9,7 @@ mod roadmap;
 mod shapes;
 mod strategies;
 mod suite;
+mod tight;
 
 pub use batches::random_batch;
 pub use cases::cases;

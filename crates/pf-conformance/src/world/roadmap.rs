@@ -131,15 +131,15 @@ fn neighbours(problem: &WorldProblem, points: &[Point]) -> Vec<Vec<usize>> {
 /// Shortcuts between places of the path, and corners cut as far as there is room.
 fn pull(problem: &WorldProblem, path: &mut Vec<Point>, rng: &mut PlanRng) {
     // From each node straight to the last one that is seen.
-    let mut k = 0;
-    while k + 2 < path.len() {
-        let seen = (k + 2..path.len())
+    let mut here = 0;
+    while here + 2 < path.len() {
+        let seen = (here + 2..path.len())
             .rev()
-            .find(|&far| problem.is_free(path[k], path[far]));
+            .find(|&far| problem.is_free(path[here], path[far]));
         if let Some(far) = seen {
-            path.drain(k + 1..far);
+            path.drain(here + 1..far);
         }
-        k += 1;
+        here += 1;
     }
     for _ in 0..40 * path.len() {
         if path.len() < 3 {
@@ -151,8 +151,8 @@ fn pull(problem: &WorldProblem, path: &mut Vec<Point>, rng: &mut PlanRng) {
             path.remove(k);
             continue;
         }
-        let (s, t) = (rng.random_range(0.0..1.0f64), rng.random_range(0.0..1.0));
-        let (a, b) = (at + (before - at) * s.powi(3), at + (after - at) * t);
+        let (back, on) = (rng.random_range(0.0..1.0f64), rng.random_range(0.0..1.0));
+        let (a, b) = (at + (before - at) * back.powi(3), at + (after - at) * on);
         if problem.is_free(a, b) {
             path.splice(k..=k, [a, b]);
         }

@@ -94,9 +94,9 @@ fn pocket(middle: Point, size: f64, turn: f64, width: f64, depth: f64) -> Shape 
         (-width, 1.0),
         (-1.0, 1.0),
     ];
-    let (sine, cosine) = turn.sin_cos();
+    let (sin, cos) = turn.sin_cos();
     let placed = corners.map(|(x, y)| {
-        let turned = Vector::new(x * cosine - y * sine, x * sine + y * cosine);
+        let turned = Vector::new(x * cos - y * sin, x * sin + y * cos);
         middle + turned * (size / 2f64.sqrt())
     });
     polygon(placed.to_vec())

@@ -94,6 +94,9 @@ pub fn worlds(size: impl Into<SizeRange>) -> impl Strategy<Value = World> {
 
 /// Problems in [`worlds`] of so many shapes, for a robot with a radius up to 1, often 0. Start and
 /// goal may be blocked, or one.
+///
+/// # Panics
+/// Never, but for a fault of its own.
 pub fn problems(size: impl Into<SizeRange>) -> impl Strategy<Value = WorldProblem> {
     let size = size.into();
     select(&Numbers::ALL[..]).prop_flat_map(move |numbers| {
@@ -128,6 +131,9 @@ pub fn changes_for(problem: &WorldProblem) -> impl Strategy<Value = Vec<WorldCha
 ///     }
 /// });
 /// ```
+///
+/// # Panics
+/// Never, but for a fault of its own.
 pub fn stories(
     size: impl Into<SizeRange>,
     batches: impl Into<SizeRange>,
