@@ -11,6 +11,8 @@ fn it_compares_all_planners_and_draws() {
         "Dijkstra",
         "A*",
         "D* Lite",
+        "visibility graph",
+        "yard",
         "found",
         "length",
         "% over shortest",
@@ -23,4 +25,5 @@ fn it_compares_all_planners_and_draws() {
     let names: Vec<_> = files.map(|f| f.unwrap().file_name()).collect();
     assert!(names.contains(&"maze-astar.svg".into()), "{names:?}");
     assert!(names.contains(&"maze-astar.png".into()), "{names:?}");
+    assert!(names.contains(&"yard-astar.png".into()), "{names:?}");
 }
