@@ -108,8 +108,8 @@ impl Disc {
 #[derive(Clone, Debug)]
 pub(super) struct Group {
     pub(super) discs: Range<usize>,
-    centre: Point,
-    reach: f64,
+    pub(super) centre: Point,
+    pub(super) reach: f64,
 }
 
 impl Group {
@@ -201,6 +201,15 @@ impl Tangent {
             leaving,
             arriving,
         })
+    }
+
+    /// The way from a point to a point, which may be the same.
+    pub(super) fn straight(from: Point, to: Point) -> Self {
+        Self {
+            length: (to - from).norm(),
+            leaving: Vector::zeros(),
+            arriving: Vector::zeros(),
+        }
     }
 
     pub(super) fn segment(&self, from: &Disc, to: &Disc) -> Segment {

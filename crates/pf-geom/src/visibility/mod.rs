@@ -5,96 +5,58 @@
 //! direction round it, and an edge for each common tangent of two; whether a tangent is free is
 //! looked up when a path over it becomes the most promising one, and remembered.
 //!
+//! The ways from one end, the root, are kept as well: how long they are does not depend on where
+//! they lead in the end, so while the root stays, another end only goes on where the last stopped.
+//!
 //! Sources: Lozano-Perez and Wesley 1979 (visibility graphs); Liu and Arimoto 1992 (tangent graphs
-//! of discs and polygons); Hart, Nilsson, Raphael 1968 (A*).
+//! of discs and polygons); Hart, Nilsson, Raphael 1968 (A*); Sun, Yeoh,
+//! Koenig 2009 (keeping the tree of A* when the goal moves).
 
 mod disc;
 mod route;
+mod tree;
 
 use crate::{Point, Segment, ShapeId, Vector, WorldProblem, cross};
 use disc::{Disc, Group, Room, SAME_ANGLE, Tangent, Turn, discs};
 use pf_core::{Context, Stamp};
 pub use route::{Bend, Route};
-use std::{cmp::Ordering, collections::BinaryHeap};
+use std::{collections::BinaryHeap, ops::Range};
+use tree::{Candidate, Label, Next, To, Tree, Way};
 
 /// The graph of a world for a robot, kept from query to query while the world stays as it is.
 #[derive(Clone, Debug, Default)]
 pub struct TangentGraph {
     /// The world and the robot's radius.
     of: Option<(Stamp, f64)>,
+    /// The last is the root's, a point.
     discs: Vec<Disc>,
     /// The discs by obstacle.
     groups: Vec<Group>,
     /// By disc; unknown until asked for.
     rooms: Vec<Option<Room>>,
-    /// By disc, and last for the start: what was last in the way. Often it is again.
+    /// By disc: what was last in the way. Often it is again.
     in_the_way: Vec<[ShapeId; 2]>,
-    /// By node: disc and turn. Unknown until the node is first expanded.
-    edges: Vec<Option<Vec<Edge>>>,
-    /// From where the start's edges are.
-    start: Option<Point>,
-    start_edges: Vec<Edge>,
-    labels: Vec<Label>,
-    /// By node: the labels that were expanded.
-    settled: Vec<Vec<u32>>,
-    touched: Vec<u32>,
+    /// By node, disc and turn: where its row of `fans` begins; none until it is first expanded.
+    rows: Vec<Option<u32>>,
+    /// By row and group: which `edges` lead there; unknown until asked for.
+    fans: Vec<Option<(u32, u32)>>,
+    edges: Vec<Edge>,
+    /// The goal last asked for.
+    last_goal: Option<Point>,
+    tree: Tree,
     open: BinaryHeap<Candidate>,
 }
 
 #[derive(Clone, Copy, Debug)]
 struct Edge {
+    from: u32,
     to: u32,
     free: Option<bool>,
     tangent: Tangent,
 }
 
-/// A way to a node.
-#[derive(Clone, Copy, Debug)]
-struct Label {
-    node: u32,
-    parent: u32,
-    /// Length of the way so far.
-    g: f64,
-    /// Where on the disc it arrives.
-    arriving: Vector,
-    /// Where the parent's disc was left.
-    leaving: Vector,
-}
-
-/// A way that may turn out to be blocked in its last piece.
-#[derive(Clone, Copy, Debug)]
-struct Candidate {
-    f: f64,
-    g: f64,
-    parent: u32,
-    /// The edge's place in the list of the parent's node; [`TO_GOAL`] for the goal.
-    edge: u32,
-}
-
-const TO_GOAL: u32 = u32::MAX;
-/// Stands for the start among nodes and labels.
-const START: u32 = u32::MAX;
-
-impl PartialEq for Candidate {
-    fn eq(&self, other: &Self) -> bool {
-        self.cmp(other) == Ordering::Equal
-    }
-}
-impl Eq for Candidate {}
-impl PartialOrd for Candidate {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
-    }
-}
-/// The least `f` is the greatest; of equal ones the furthest on its way.
-impl Ord for Candidate {
-    fn cmp(&self, other: &Self) -> Ordering {
-        (other.f.total_cmp(&self.f))
-            .then(self.g.total_cmp(&other.g))
-            .then(other.parent.cmp(&self.parent))
-            .then(other.edge.cmp(&self.edge))
-    }
-}
+/// How many last pieces are tried before the search, for a bound on what it may cost.
+const TRIALS: u32 = 64;
 
 /// What a query came to.
 #[derive(Clone, Debug)]
@@ -109,7 +71,8 @@ pub enum Answer {
 
 impl TangentGraph {
     /// The shortest path of a problem. What is learnt of the world is kept for the next query in
-    /// it. One iteration is one way looked at.
+    /// it, and the ways from one end for the next query that has this end. One iteration is one way
+    /// looked at.
     pub fn shortest(
         &mut self,
         problem: &WorldProblem,
@@ -120,42 +83,21 @@ impl TangentGraph {
         if !problem.is_free(start, start) || !problem.is_free(goal, goal) {
             return Answer::Nothing;
         }
-        let target = Disc::point(goal);
-        self.look_from(start);
-        let straight = (goal - start).norm();
-        self.push(straight, straight, START, TO_GOAL);
-        for k in 0..self.start_edges.len() {
-            let edge = self.start_edges[k];
-            if edge.free != Some(false) {
-                self.consider(START, k, 0.0, &edge, goal);
-            }
+        let backwards = self.grows_from_goal(start, goal);
+        self.last_goal = Some(goal);
+        let (root, end) = if backwards { (goal, start) } else { (start, goal) };
+        self.look_from(root);
+        match self.search(problem, &Disc::point(end), cx) {
+            Answer::Route(route) if backwards => Answer::Route(route.reversed()),
+            answer => answer,
         }
-        while let Some(way) = self.open.pop() {
-            if !cx.proceed() {
-                return Answer::Cut;
-            }
-            if way.edge == TO_GOAL {
-                if let Some(route) = self.arrive(problem, &target, &way) {
-                    return Answer::Route(route);
-                }
-                continue;
-            }
-            let Some(label) = self.follow(problem, &way) else {
-                continue;
-            };
-            let disc = &self.discs[label.node as usize / 2];
-            let at = disc.centre + label.arriving * disc.radius;
-            cx.expanded(|| at);
-            self.expand(problem, &label, &target);
-        }
-        Answer::Nothing
     }
 
-    /// Forgets which straight pieces are free, so that the next query takes as many iterations as
-    /// if it were the first.
+    /// Forgets the ways and which straight pieces are free, so that the next query takes as many
+    /// iterations as if it were the first.
     pub fn forget(&mut self) {
-        let edges = self.edges.iter_mut().flatten().flatten();
-        for edge in edges.chain(&mut self.start_edges) {
+        self.tree.clear();
+        for edge in &mut self.edges {
             edge.free = None;
         }
     }
@@ -163,111 +105,181 @@ impl TangentGraph {
     /// How many bends a path could have: corners and round obstacles.
     #[must_use]
     pub fn len(&self) -> usize {
-        self.discs.len()
+        self.discs.len().saturating_sub(1)
     }
 
     /// Whether there is nothing to bend around.
     #[must_use]
     pub fn is_empty(&self) -> bool {
-        self.discs.is_empty()
+        self.len() == 0
     }
 
     /// The straight pieces known to be free, for drawing.
     pub fn free_pieces(&self) -> impl Iterator<Item = Segment> + '_ {
-        let lists = self.edges.iter().enumerate();
-        lists.flat_map(move |(node, edges)| {
-            edges
-                .iter()
-                .flatten()
-                .filter(|edge| edge.free == Some(true))
-                .map(move |edge| {
-                    let to = &self.discs[edge.to as usize / 2];
-                    edge.tangent.segment(&self.discs[node / 2], to)
-                })
+        let rows = self.rows.iter().flatten();
+        let fans = rows.flat_map(|&row| &self.fans[row as usize..][..self.groups.len()]);
+        let edges = fans
+            .flatten()
+            .flat_map(|&(first, last)| &self.edges[first as usize..last as usize]);
+        edges.filter(|edge| edge.free == Some(true)).map(|edge| {
+            let (from, to) = (edge.from as usize / 2, edge.to as usize / 2);
+            edge.tangent.segment(&self.discs[from], &self.discs[to])
         })
     }
 
-    /// Makes ready for a query: forgets the last one, and the world if it is another now.
+    /// Forgets the world if it is another now.
     fn prepare(&mut self, problem: &WorldProblem) {
         let of = Some((problem.world().stamp(), problem.radius()));
-        if self.of != of {
-            self.of = of;
-            self.discs.clear();
-            self.groups.clear();
-            for (id, shape) in problem.world().shapes() {
-                let first = self.discs.len();
-                discs(id, shape, problem.radius(), &mut self.discs);
-                let range = first..self.discs.len();
-                self.groups.extend(Group::of(&self.discs, range));
-            }
-            let nodes = 2 * self.discs.len();
-            self.rooms.clear();
-            self.rooms.resize(self.discs.len(), None);
-            self.in_the_way.clear();
-            self.in_the_way
-                .resize(self.discs.len() + 1, [ShapeId::MAX; 2]);
-            self.edges.clear();
-            self.edges.resize(nodes, None);
-            self.settled.iter_mut().for_each(Vec::clear);
-            self.settled.resize(nodes, Vec::new());
-            self.start = None;
-            self.touched.clear();
+        if self.of == of {
+            return;
         }
-        for node in self.touched.drain(..) {
-            self.settled[node as usize].clear();
+        self.of = of;
+        self.discs.clear();
+        self.groups.clear();
+        for (id, shape) in problem.world().shapes() {
+            let first = self.discs.len();
+            discs(id, shape, problem.radius(), &mut self.discs);
+            let range = first..self.discs.len();
+            self.groups.extend(Group::of(&self.discs, range));
         }
-        self.labels.clear();
+        self.discs.push(Disc::point(problem.start()));
+        let discs = self.discs.len();
+        self.rooms.clear();
+        self.rooms.resize(discs, None);
+        self.rooms[discs - 1] = Some(Room::All);
+        self.in_the_way.clear();
+        self.in_the_way.resize(discs, [ShapeId::MAX; 2]);
+        self.rows.clear();
+        self.rows.resize(2 * discs, None);
+        self.fans.clear();
+        self.edges.clear();
+        self.tree.clear();
+        self.tree.settled.resize(2 * discs, Vec::new());
+    }
+
+    /// Whether the ways are to begin at the goal: at the end that is kept, if one is.
+    fn grows_from_goal(&self, start: Point, goal: Point) -> bool {
+        match self.tree.root() {
+            Some(root) if root == start => false,
+            Some(root) => root == goal || self.last_goal == Some(goal),
+            None => false,
+        }
+    }
+
+    /// Makes `root` the end from which ways are kept.
+    fn look_from(&mut self, root: Point) {
+        if self.tree.root() == Some(root) {
+            return;
+        }
+        let last = self.discs.len() - 1;
+        self.discs[last] = Disc::point(root);
+        self.in_the_way[last] = [ShapeId::MAX; 2];
+        let node = node_of(last, Turn::Left);
+        if let Some(row) = self.rows[node as usize] {
+            self.fans[row as usize..][..self.groups.len()].fill(None);
+        }
+        self.tree.clear();
+        self.settle(Label::root(node, root));
+    }
+
+    fn search(
+        &mut self,
+        problem: &WorldProblem,
+        target: &Disc,
+        cx: &mut Context<'_, WorldProblem>,
+    ) -> Answer {
+        let end = target.centre;
         self.open.clear();
-    }
-
-    fn look_from(&mut self, start: Point) {
-        if self.start != Some(start) {
-            self.start = Some(start);
-            let from = Disc::point(start);
-            self.start_edges = tangents(&self.discs, &self.groups, &from, Turn::Left).collect();
+        for (k, label) in (0..).zip(&self.tree.labels) {
+            let least = label.g + (end - label.at).norm();
+            self.open.push(Candidate::new(least, Next::Label(k)));
+        }
+        // A path by ways that are known: nothing longer is of interest any more.
+        let mut best = None;
+        let mut reached = Vec::new();
+        let mut trials = 0;
+        while best.is_none() && trials < TRIALS && let Some(candidate) = self.open.pop() {
+            match candidate.next {
+                Next::Label(label) => {
+                    reached.push(label);
+                    self.try_end(label, target, f64::INFINITY);
+                }
+                Next::End(label) => {
+                    if !cx.proceed() {
+                        return Answer::Cut;
+                    }
+                    trials += 1;
+                    if self.is_last_piece_free(problem, label, target) {
+                        best = Some((candidate.f, label));
+                    }
+                }
+                Next::Way(_) => {}
+            }
+        }
+        let bound = best.map_or(f64::INFINITY, |(f, _)| f);
+        if best.is_some() {
+            // They came in their order: none of the others is shorter.
+            self.open.clear();
+        }
+        for label in reached {
+            self.reopen(label, end, bound);
+        }
+        while let Some(candidate) = self.open.pop() {
+            match candidate.next {
+                Next::Label(label) => {
+                    self.try_end(label, target, bound);
+                    self.reopen(label, end, bound);
+                }
+                Next::End(label) => {
+                    if !cx.proceed() {
+                        return Answer::Cut;
+                    }
+                    if self.is_last_piece_free(problem, label, target) {
+                        best = Some((candidate.f, label));
+                        break;
+                    }
+                }
+                Next::Way(way) => match self.tree.ways[way as usize].to {
+                    To::Group(group) => {
+                        let way = self.tree.take(way);
+                        self.fan_out(way.label, group, end, bound);
+                    }
+                    To::Edge(edge) => {
+                        // Only now: a search cut short must not lose the way.
+                        if !cx.proceed() {
+                            return Answer::Cut;
+                        }
+                        let way = self.tree.take(way);
+                        if let Some(label) = self.follow(problem, &way, edge) {
+                            cx.expanded(|| label.at);
+                            let here = self.settle(label);
+                            self.try_end(here, target, bound);
+                            self.reopen(here, end, bound);
+                        }
+                    }
+                },
+            }
+        }
+        match best {
+            Some((length, label)) => Answer::Route(self.route(label, target, length)),
+            None => Answer::Nothing,
         }
     }
 
-    fn push(&mut self, f: f64, g: f64, parent: u32, edge: u32) {
-        self.open.push(Candidate { f, g, parent, edge });
-    }
-
-    /// Puts the way over an edge into the open list, its last piece unseen.
-    fn consider(&mut self, parent: u32, k: usize, g: f64, edge: &Edge, goal: Point) {
-        let to = &self.discs[edge.to as usize / 2];
-        let contact = to.centre + edge.tangent.arriving * to.radius;
-        let g = g + edge.tangent.length;
-        let k = u32::try_from(k).unwrap_or(TO_GOAL);
-        self.push(g + (goal - contact).norm(), g, parent, k);
-    }
-
-    /// Goes the way to its end, if it is free and better than those that were there before.
-    fn follow(&mut self, problem: &WorldProblem, way: &Candidate) -> Option<Label> {
-        let start;
-        let (from, in_the_way, edge) = if way.parent == START {
-            start = Disc::point(problem.start());
-            let last = self.discs.len();
-            let edge = self.start_edges.get_mut(way.edge as usize)?;
-            (&start, &mut self.in_the_way[last], edge)
-        } else {
-            let node = self.labels[way.parent as usize].node as usize;
-            let edge = self.edges[node].as_mut()?.get_mut(way.edge as usize)?;
-            let disc = node / 2;
-            (&self.discs[disc], &mut self.in_the_way[disc], edge)
-        };
-        let to = &self.discs[edge.to as usize / 2];
+    /// Goes a way to its end, if it is free and better than those that were there before.
+    fn follow(&mut self, problem: &WorldProblem, way: &Way, edge: u32) -> Option<Label> {
+        let edge = &mut self.edges[edge as usize];
+        let disc = edge.from as usize / 2;
+        let (from, to) = (&self.discs[disc], &self.discs[edge.to as usize / 2]);
+        let in_the_way = &mut self.in_the_way[disc];
         let free = *edge
             .free
             .get_or_insert_with(|| is_free(problem, &edge.tangent.segment(from, to), in_the_way));
-        let edge = *edge;
-        let label = Label {
-            node: edge.to,
-            parent: way.parent,
-            g: way.g,
-            arriving: edge.tangent.arriving,
-            leaving: edge.tangent.leaving,
-        };
-        let room = free && self.room(problem, edge.to).holds(label.arriving);
+        if !free {
+            return None;
+        }
+        let label = Label::over(edge, way);
+        let room = self.room(problem, label.node).holds(label.arriving);
         (room && !self.is_dominated(&label)).then_some(label)
     }
 
@@ -280,9 +292,8 @@ impl TangentGraph {
     /// Whether somebody was there before who can go on as well: from where it came in, round to
     /// here, for no more.
     fn is_dominated(&self, label: &Label) -> bool {
-        let node = label.node as usize;
-        self.settled[node].iter().any(|&other| {
-            let other = self.labels[other as usize];
+        self.tree.settled[label.node as usize].iter().any(|&other| {
+            let other = &self.tree.labels[other as usize];
             self.round(label.node, other.arriving, label.arriving)
                 .is_some_and(|arc| other.g + arc <= label.g + 1e-12)
         })
@@ -304,68 +315,120 @@ impl TangentGraph {
             .then_some(angle * disc.radius)
     }
 
-    fn expand(&mut self, problem: &WorldProblem, label: &Label, target: &Disc) {
-        let here = u32::try_from(self.labels.len()).unwrap_or(START);
-        self.labels.push(*label);
-        let node = label.node as usize;
-        self.settled[node].push(here);
-        self.touched.push(label.node);
-        let (disc, turn) = (&self.discs[node / 2], turn_of(label.node));
-        if self.edges[node].is_none() {
-            self.edges[node] = Some(tangents(&self.discs, &self.groups, disc, turn).collect());
-        }
-        if let Some(tangent) = Tangent::between(disc, turn, target, Turn::Left)
-            && let Some(arc) = self.round(label.node, label.arriving, tangent.leaving)
-        {
-            let length = label.g + arc + tangent.length;
-            self.push(length, length, here, TO_GOAL);
-        }
-        let edges = self.edges[node].take().unwrap_or_default();
-        for (k, edge) in edges.iter().enumerate() {
-            if edge.free != Some(false)
-                && let Some(arc) = self.round(label.node, label.arriving, edge.tangent.leaving)
-            {
-                self.consider(here, k, label.g + arc, edge, problem.goal());
+    /// Puts a label into the tree, and the obstacles that may be next.
+    fn settle(&mut self, label: Label) -> u32 {
+        let (disc, turn) = (&self.discs[label.node as usize / 2], turn_of(label.node));
+        let here = self.tree.add(label);
+        for (k, group) in (0..).zip(&self.groups) {
+            if group.is_ahead_of(disc, turn) {
+                // From the last contact to the obstacle's circle, and from there on.
+                let to_circle = (group.centre - label.at).norm() - group.reach;
+                let g = label.g + to_circle.max(0.0) - group.reach;
+                self.tree.add_way(here, To::Group(k), g, group.centre);
             }
         }
-        self.edges[node] = Some(edges);
+        here
     }
 
-    /// The last piece, if it is free, and the route behind it.
-    fn arrive(&self, problem: &WorldProblem, target: &Disc, way: &Candidate) -> Option<Route> {
-        let mut bends = Vec::new();
-        let mut last = way.parent;
-        if last == START {
-            if !problem.is_free(problem.start(), problem.goal()) {
-                return None;
-            }
-        } else {
-            let label = self.labels[last as usize];
-            let disc = &self.discs[label.node as usize / 2];
-            let tangent = Tangent::between(disc, turn_of(label.node), target, Turn::Left)?;
-            if !problem
-                .world()
-                .is_free(&tangent.segment(disc, target), problem.radius())
+    /// Puts the ways from a label to an obstacle into the tree and, if they may lead to a path
+    /// shorter than `bound`, into the open list, their pieces unseen.
+    fn fan_out(&mut self, label: u32, group: u32, end: Point, bound: f64) {
+        let from = self.tree.labels[label as usize];
+        let (first, last) = self.fan(from.node, group);
+        for k in first..last {
+            let edge = &self.edges[k as usize];
+            if edge.free != Some(false)
+                && let Some(arc) = self.round(from.node, from.arriving, edge.tangent.leaving)
             {
-                return None;
+                let to = &self.discs[edge.to as usize / 2];
+                let at = to.centre + edge.tangent.arriving * to.radius;
+                let g = from.g + arc + edge.tangent.length;
+                let way = self.tree.add_way(label, To::Edge(k), g, at);
+                let f = g + (end - at).norm();
+                if f < bound {
+                    self.open.push(Candidate::new(f, Next::Way(way)));
+                }
             }
-            let mut leaving = tangent.leaving;
-            while last != START {
-                let label = self.labels[last as usize];
-                let (disc, turn) = (&self.discs[label.node as usize / 2], turn_of(label.node));
-                let angle = turn.angle(label.arriving, leaving);
-                bends.push(Bend::new(disc, label.arriving, angle, turn));
-                leaving = label.leaving;
-                last = label.parent;
-            }
-            bends.reverse();
         }
-        Some(Route {
-            start: problem.start(),
-            goal: problem.goal(),
-            bends,
-            length: way.g,
+    }
+
+    /// The edges from a node to an obstacle.
+    fn fan(&mut self, node: u32, group: u32) -> (u32, u32) {
+        let groups = self.groups.len();
+        let row = *self.rows[node as usize].get_or_insert_with(|| {
+            let row = index(self.fans.len());
+            self.fans.resize(self.fans.len() + groups, None);
+            row
+        });
+        *self.fans[(row + group) as usize].get_or_insert_with(|| {
+            let first = index(self.edges.len());
+            let to = self.groups[group as usize].discs.clone();
+            self.edges.extend(tangents(&self.discs, node, to));
+            (first, index(self.edges.len()))
         })
+    }
+
+    /// Puts the ways on from a label into the open list, if they may lead to a path shorter than
+    /// `bound`.
+    fn reopen(&mut self, label: u32, end: Point, bound: f64) {
+        let open = &mut self.open;
+        self.tree.each_way(label, |k, way| {
+            let f = way.g + (end - way.at).norm();
+            if f < bound {
+                open.push(Candidate::new(f, Next::Way(k)));
+            }
+        });
+    }
+
+    /// Puts the last piece from a label into the open list, if there is one, unseen.
+    fn try_end(&mut self, label: u32, target: &Disc, bound: f64) {
+        let from = &self.tree.labels[label as usize];
+        if let Some(tangent) = self.last_piece(from, target)
+            && let Some(arc) = self.round(from.node, from.arriving, tangent.leaving)
+        {
+            let length = from.g + arc + tangent.length;
+            if length < bound {
+                self.open.push(Candidate::new(length, Next::End(label)));
+            }
+        }
+    }
+
+    fn last_piece(&self, from: &Label, target: &Disc) -> Option<Tangent> {
+        if from.is_root() {
+            return Some(Tangent::straight(from.at, target.centre));
+        }
+        let disc = &self.discs[from.node as usize / 2];
+        Tangent::between(disc, turn_of(from.node), target, Turn::Left)
+    }
+
+    fn is_last_piece_free(&mut self, problem: &WorldProblem, label: u32, target: &Disc) -> bool {
+        let label = &self.tree.labels[label as usize];
+        let disc = label.node as usize / 2;
+        self.last_piece(label, target).is_some_and(|tangent| {
+            let piece = tangent.segment(&self.discs[disc], target);
+            is_free(problem, &piece, &mut self.in_the_way[disc])
+        })
+    }
+
+    /// The route that goes to a label and from there straight to the target.
+    fn route(&self, label: u32, target: &Disc, length: f64) -> Route {
+        let mut bends = Vec::new();
+        let mut label = &self.tree.labels[label as usize];
+        let mut leaving = self.last_piece(label, target).map(|tangent| tangent.leaving);
+        while let Some(to) = leaving.filter(|_| !label.is_root()) {
+            let (disc, turn) = (&self.discs[label.node as usize / 2], turn_of(label.node));
+            let angle = turn.angle(label.arriving, to);
+            bends.push(Bend::new(disc, label.arriving, angle, turn));
+            leaving = Some(label.leaving);
+            label = &self.tree.labels[label.parent as usize];
+        }
+        bends.reverse();
+        Route {
+            start: label.at,
+            goal: target.centre,
+            bends,
+            length,
+        }
     }
 }
 
@@ -387,23 +450,24 @@ fn turn_of(node: u32) -> Turn {
     Turn::BOTH[node as usize % 2]
 }
 
-/// All tangents that leave a disc in one direction round it.
-fn tangents<'a>(
-    discs: &'a [Disc],
-    groups: &'a [Group],
-    from: &'a Disc,
-    out: Turn,
-) -> impl Iterator<Item = Edge> + 'a {
-    let ahead = groups
-        .iter()
-        .filter(move |group| group.is_ahead_of(from, out));
-    let there = ahead.flat_map(|group| group.discs.clone());
-    there.flat_map(move |k| {
+fn node_of(disc: usize, turn: Turn) -> u32 {
+    index(2 * disc + usize::from(turn == Turn::Right))
+}
+
+#[expect(clippy::cast_possible_truncation, reason = "as many of anything fit no memory")]
+fn index(k: usize) -> u32 {
+    k as u32
+}
+
+/// The tangents from a node to some of the discs.
+fn tangents(discs: &[Disc], node: u32, to: Range<usize>) -> impl Iterator<Item = Edge> + '_ {
+    let (from, out) = (&discs[node as usize / 2], turn_of(node));
+    to.flat_map(move |k| {
         Turn::BOTH.into_iter().filter_map(move |into| {
             let tangent = Tangent::between(from, out, &discs[k], into)?;
-            let to = u32::try_from(2 * k + usize::from(into == Turn::Right)).ok()?;
             Some(Edge {
-                to,
+                from: node,
+                to: node_of(k, into),
                 free: None,
                 tangent,
             })

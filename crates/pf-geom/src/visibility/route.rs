@@ -35,14 +35,30 @@ impl Bend {
         }
     }
 
-    fn at(&self, angle: f64, radius: f64) -> Point {
+    /// Unit vector from the middle to where the path is after turning by `angle`.
+    fn towards(&self, angle: f64) -> Vector {
         let (sine, cosine) = angle.sin_cos();
         let (x, y) = (self.from.x, self.from.y);
-        self.centre + Vector::new(x * cosine - y * sine, x * sine + y * cosine) * radius
+        Vector::new(x * cosine - y * sine, x * sine + y * cosine)
+    }
+
+    fn at(&self, angle: f64, radius: f64) -> Point {
+        self.centre + self.towards(angle) * radius
     }
 }
 
 impl Route {
+    /// The same route, from its goal to its start.
+    pub(super) fn reversed(mut self) -> Self {
+        std::mem::swap(&mut self.start, &mut self.goal);
+        self.bends.reverse();
+        for bend in &mut self.bends {
+            bend.from = bend.towards(bend.angle);
+            bend.angle = -bend.angle;
+        }
+        self
+    }
+
     /// Its length, arcs and all.
     #[must_use]
     pub fn length(&self) -> f64 {
