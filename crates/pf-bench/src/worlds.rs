@@ -16,7 +16,7 @@ pub(crate) struct Args {
     #[arg(long, default_value_t = 10)]
     worlds: u32,
     /// How many queries a world
-    #[arg(long, default_value_t = 10)]
+    #[arg(long, default_value_t = 100)]
     queries: u32,
     /// Seed of worlds and queries
     #[arg(long, default_value_t = 1)]

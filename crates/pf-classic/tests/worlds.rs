@@ -5,8 +5,8 @@ use pf_conformance::{
     seeded,
     world::{Kind, Recipe, SLACK, listing, oracle, problems, random_world, roadmap},
 };
-use pf_core::{Context, Outcome, Planner, Problem};
-use pf_geom::WorldProblem;
+use pf_core::{Context, Outcome, Planner, Problem, Replanner};
+use pf_geom::{Point, WorldChange, WorldProblem};
 use proptest::{prelude::*, test_runner::RngSeed};
 use rand::RngExt;
 
@@ -58,6 +58,57 @@ fn no_roadmap_is_shorter_in_five_hundred_worlds() {
         "{} {median}",
         excess.len()
     );
+}
+
+/// What is kept from query to query must not show: ends that move one after the other, or both,
+/// back to where they were and into obstacles.
+#[test]
+fn a_kept_graph_finds_what_a_new_one_finds() {
+    let (mut solved, mut refuted) = (0, 0);
+    for seed in 3000..3150 {
+        let mut rng = seeded(seed);
+        let most = [10, 50, 200][rng.random_range(0..3usize)];
+        let recipe = Recipe::any(&mut rng, 5..=most);
+        let mut problem = random_world(&mut rng, &recipe);
+        let mut kept = VisibilityGraph::default();
+        kept.plan(&problem, &mut Context::seeded(0)).expect("any");
+        let bounds = *problem.world().bounds();
+        let mut places = vec![problem.start(), problem.goal()];
+        for _ in 0..20 {
+            let mut place = || {
+                let (min, max) = (bounds.min(), bounds.max());
+                let p = Point::new(
+                    rng.random_range(min.x..max.x),
+                    rng.random_range(min.y..max.y),
+                );
+                places.push(p);
+                places[rng.random_range(0..places.len())]
+            };
+            let (goal, start) = (
+                WorldChange::GoalMoved(place()),
+                WorldChange::StartMoved(place()),
+            );
+            let changes = match rng.random_range(0..4) {
+                0 => vec![goal, start],
+                1 => vec![start],
+                _ => vec![goal],
+            };
+            let revision = problem.revise(&changes).expect("both ends are within");
+            let again = kept.replan(&revision, &mut Context::seeded(0));
+            let fresh = VisibilityGraph::default().plan(&problem, &mut Context::seeded(0));
+            let [again, fresh] = [again, fresh].map(|report| report.expect("any").outcome);
+            match (&again, &fresh) {
+                (Outcome::Optimal(a), Outcome::Optimal(b)) => {
+                    let close = (a.cost - b.cost).abs() <= SLACK;
+                    assert!(close, "seed {seed}: {} {}", a.cost, b.cost);
+                    solved += 1;
+                }
+                (Outcome::Infeasible, Outcome::Infeasible) => refuted += 1,
+                _ => panic!("seed {seed}: {again:?}, {fresh:?}\n{}", listing(&problem)),
+            }
+        }
+    }
+    assert!(solved >= 1000 && refuted >= 500, "{solved} {refuted}");
 }
 
 /// Whether the planner says what the oracle says.

@@ -21,7 +21,7 @@ use disc::{Disc, Group, Room, SAME_ANGLE, Tangent, Turn, discs};
 use pf_core::{Context, Stamp};
 pub use route::{Bend, Route};
 use std::{collections::BinaryHeap, ops::Range};
-use tree::{Candidate, Label, Next, To, Tree, Way};
+use tree::{Candidate, Label, Next, Tree, Way};
 
 /// The graph of a world for a robot, kept from query to query while the world stays as it is.
 #[derive(Clone, Debug, Default)]
@@ -41,10 +41,29 @@ pub struct TangentGraph {
     /// By row and group: which `edges` lead there; unknown until asked for.
     fans: Vec<Option<(u32, u32)>>,
     edges: Vec<Edge>,
+    /// How many of them lead from roots that are no more.
+    stale: usize,
     /// The goal last asked for.
     last_goal: Option<Point>,
     tree: Tree,
+    /// By group: how far its middle is from the end asked for.
+    to_end: Vec<f64>,
     open: BinaryHeap<Candidate>,
+}
+
+/// What a search is after.
+struct Aim {
+    end: Point,
+    /// Only paths shorter than this are of interest.
+    bound: f64,
+    /// How much longer than the best hope a path may be for its obstacles to be opened at once.
+    step: f64,
+}
+
+impl Aim {
+    fn through(&self, g: f64, at: Point) -> f64 {
+        g + (self.end - at).norm()
+    }
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -56,7 +75,9 @@ struct Edge {
 }
 
 /// How many last pieces are tried before the search, for a bound on what it may cost.
-const TRIALS: u32 = 64;
+const TRIALS: u32 = 24;
+/// [`Aim::step`] as a share of the straight line.
+const STEP: f64 = 0.02;
 
 /// What a query came to.
 #[derive(Clone, Debug)]
@@ -85,7 +106,11 @@ impl TangentGraph {
         }
         let backwards = self.grows_from_goal(start, goal);
         self.last_goal = Some(goal);
-        let (root, end) = if backwards { (goal, start) } else { (start, goal) };
+        let (root, end) = if backwards {
+            (goal, start)
+        } else {
+            (start, goal)
+        };
         self.look_from(root);
         match self.search(problem, &Disc::point(end), cx) {
             Answer::Route(route) if backwards => Answer::Route(route.reversed()),
@@ -149,12 +174,8 @@ impl TangentGraph {
         self.rooms[discs - 1] = Some(Room::All);
         self.in_the_way.clear();
         self.in_the_way.resize(discs, [ShapeId::MAX; 2]);
-        self.rows.clear();
-        self.rows.resize(2 * discs, None);
-        self.fans.clear();
-        self.edges.clear();
-        self.tree.clear();
-        self.tree.settled.resize(2 * discs, Vec::new());
+        self.forget_edges();
+        self.tree.fit(2 * discs, self.groups.len());
     }
 
     /// Whether the ways are to begin at the goal: at the end that is kept, if one is.
@@ -172,14 +193,28 @@ impl TangentGraph {
             return;
         }
         let last = self.discs.len() - 1;
-        self.discs[last] = Disc::point(root);
-        self.in_the_way[last] = [ShapeId::MAX; 2];
         let node = node_of(last, Turn::Left);
         if let Some(row) = self.rows[node as usize] {
-            self.fans[row as usize..][..self.groups.len()].fill(None);
+            let fans = &mut self.fans[row as usize..][..self.groups.len()];
+            let edges = |fan: &Option<(u32, u32)>| fan.map_or(0, |(first, last)| last - first);
+            self.stale += fans.iter().map(|fan| edges(fan) as usize).sum::<usize>();
+            fans.fill(None);
         }
+        if 2 * self.stale > self.edges.len() {
+            self.forget_edges();
+        }
+        self.discs[last] = Disc::point(root);
+        self.in_the_way[last] = [ShapeId::MAX; 2];
         self.tree.clear();
         self.settle(Label::root(node, root));
+    }
+
+    fn forget_edges(&mut self) {
+        self.stale = 0;
+        self.edges.clear();
+        self.fans.clear();
+        self.rows.clear();
+        self.rows.resize(2 * self.discs.len(), None);
     }
 
     fn search(
@@ -189,20 +224,31 @@ impl TangentGraph {
         cx: &mut Context<'_, WorldProblem>,
     ) -> Answer {
         let end = target.centre;
+        self.to_end.clear();
+        let to_end = |group: &Group| (end - group.centre).norm();
+        self.to_end.extend(self.groups.iter().map(to_end));
+        let mut aim = Aim {
+            end,
+            bound: f64::INFINITY,
+            step: STEP * (end - self.tree.labels[0].at).norm(),
+        };
         self.open.clear();
         for (k, label) in (0..).zip(&self.tree.labels) {
-            let least = label.g + (end - label.at).norm();
-            self.open.push(Candidate::new(least, Next::Label(k)));
+            let f = aim.through(label.g, label.at);
+            self.open.push(Candidate::new(f, Next::Label(k)));
         }
-        // A path by ways that are known: nothing longer is of interest any more.
+        // First by ways that are known: nothing longer is of interest then.
         let mut best = None;
         let mut reached = Vec::new();
         let mut trials = 0;
-        while best.is_none() && trials < TRIALS && let Some(candidate) = self.open.pop() {
+        while best.is_none()
+            && trials < TRIALS
+            && let Some(candidate) = self.open.pop()
+        {
             match candidate.next {
                 Next::Label(label) => {
                     reached.push(label);
-                    self.try_end(label, target, f64::INFINITY);
+                    self.try_end(label, target, &aim);
                 }
                 Next::End(label) => {
                     if !cx.proceed() {
@@ -213,51 +259,50 @@ impl TangentGraph {
                         best = Some((candidate.f, label));
                     }
                 }
-                Next::Way(_) => {}
+                Next::Ways(_) | Next::Group(_) | Next::Way(_) => {}
             }
         }
-        let bound = best.map_or(f64::INFINITY, |(f, _)| f);
-        if best.is_some() {
+        if let Some((length, _)) = best {
+            aim.bound = length;
             // They came in their order: none of the others is shorter.
             self.open.clear();
         }
         for label in reached {
-            self.reopen(label, end, bound);
+            self.reopen(label, &aim);
         }
-        while let Some(candidate) = self.open.pop() {
-            match candidate.next {
+        while let Some(Candidate { f, next }) = self.open.pop() {
+            match next {
                 Next::Label(label) => {
-                    self.try_end(label, target, bound);
-                    self.reopen(label, end, bound);
+                    self.try_end(label, target, &aim);
+                    self.reopen(label, &aim);
+                }
+                Next::Ways(label) => self.open_groups(label, f, &aim),
+                Next::Group(place) => {
+                    let (label, group) = self.tree.take_group(place);
+                    self.fan_out(label, group, &aim);
                 }
                 Next::End(label) => {
                     if !cx.proceed() {
                         return Answer::Cut;
                     }
                     if self.is_last_piece_free(problem, label, target) {
-                        best = Some((candidate.f, label));
+                        best = Some((f, label));
                         break;
                     }
                 }
-                Next::Way(way) => match self.tree.ways[way as usize].to {
-                    To::Group(group) => {
-                        let way = self.tree.take(way);
-                        self.fan_out(way.label, group, end, bound);
+                Next::Way(way) => {
+                    // Only then is it taken: a search cut short must not lose it.
+                    if !cx.proceed() {
+                        return Answer::Cut;
                     }
-                    To::Edge(edge) => {
-                        // Only now: a search cut short must not lose the way.
-                        if !cx.proceed() {
-                            return Answer::Cut;
-                        }
-                        let way = self.tree.take(way);
-                        if let Some(label) = self.follow(problem, &way, edge) {
-                            cx.expanded(|| label.at);
-                            let here = self.settle(label);
-                            self.try_end(here, target, bound);
-                            self.reopen(here, end, bound);
-                        }
+                    let way = self.tree.take(way);
+                    if let Some(label) = self.follow(problem, &way) {
+                        cx.expanded(|| label.at);
+                        let here = self.settle(label);
+                        self.try_end(here, target, &aim);
+                        self.open_groups(here, f64::NEG_INFINITY, &aim);
                     }
-                },
+                }
             }
         }
         match best {
@@ -267,8 +312,8 @@ impl TangentGraph {
     }
 
     /// Goes a way to its end, if it is free and better than those that were there before.
-    fn follow(&mut self, problem: &WorldProblem, way: &Way, edge: u32) -> Option<Label> {
-        let edge = &mut self.edges[edge as usize];
+    fn follow(&mut self, problem: &WorldProblem, way: &Way) -> Option<Label> {
+        let edge = &mut self.edges[way.edge as usize];
         let disc = edge.from as usize / 2;
         let (from, to) = (&self.discs[disc], &self.discs[edge.to as usize / 2]);
         let in_the_way = &mut self.in_the_way[disc];
@@ -318,21 +363,58 @@ impl TangentGraph {
     /// Puts a label into the tree, and the obstacles that may be next.
     fn settle(&mut self, label: Label) -> u32 {
         let (disc, turn) = (&self.discs[label.node as usize / 2], turn_of(label.node));
-        let here = self.tree.add(label);
-        for (k, group) in (0..).zip(&self.groups) {
+        let least = self.groups.iter().map(|group| {
             if group.is_ahead_of(disc, turn) {
-                // From the last contact to the obstacle's circle, and from there on.
+                // From the last contact to the obstacle's circle, and on from there.
                 let to_circle = (group.centre - label.at).norm() - group.reach;
-                let g = label.g + to_circle.max(0.0) - group.reach;
-                self.tree.add_way(here, To::Group(k), g, group.centre);
+                label.g + to_circle.max(0.0) - group.reach
+            } else {
+                f64::INFINITY
+            }
+        });
+        self.tree.add(label, least)
+    }
+
+    /// Puts the ways on from a label into the open list, if they may lead to a path that is of
+    /// interest.
+    fn reopen(&mut self, label: u32, aim: &Aim) {
+        let open = &mut self.open;
+        self.tree.each_way(label, |k, way| {
+            let f = aim.through(way.g, way.at);
+            if f < aim.bound {
+                open.push(Candidate::new(f, Next::Way(k)));
+            }
+        });
+        self.open_groups(label, f64::NEG_INFINITY, aim);
+    }
+
+    /// Puts the obstacles next to a label into the open list, those over which a path may be as
+    /// short as `from` or somewhat longer. The rest have to wait: most are never asked for.
+    fn open_groups(&mut self, label: u32, from: f64, aim: &Aim) {
+        if self.tree.least_with(label, &self.to_end) >= aim.bound {
+            return;
+        }
+        let at = &self.tree.labels[label as usize];
+        let hope = aim.through(at.g, at.at);
+        let late = (from - hope).max(0.0);
+        let upto = hope + 2.0 * late + aim.step;
+        let mut rest = f64::INFINITY;
+        for ((place, least), to_end) in self.tree.least(label).zip(&self.to_end) {
+            let f = least + to_end;
+            if f > upto {
+                rest = rest.min(f);
+            } else if f >= from && f < aim.bound {
+                self.open.push(Candidate::new(f, Next::Group(place)));
             }
         }
-        here
+        if rest < aim.bound {
+            self.open.push(Candidate::new(rest, Next::Ways(label)));
+        }
     }
 
     /// Puts the ways from a label to an obstacle into the tree and, if they may lead to a path
-    /// shorter than `bound`, into the open list, their pieces unseen.
-    fn fan_out(&mut self, label: u32, group: u32, end: Point, bound: f64) {
+    /// that is of interest, into the open list, their pieces unseen.
+    fn fan_out(&mut self, label: u32, group: u32, aim: &Aim) {
         let from = self.tree.labels[label as usize];
         let (first, last) = self.fan(from.node, group);
         for k in first..last {
@@ -343,9 +425,9 @@ impl TangentGraph {
                 let to = &self.discs[edge.to as usize / 2];
                 let at = to.centre + edge.tangent.arriving * to.radius;
                 let g = from.g + arc + edge.tangent.length;
-                let way = self.tree.add_way(label, To::Edge(k), g, at);
-                let f = g + (end - at).norm();
-                if f < bound {
+                let way = self.tree.add_way(label, k, g, at);
+                let f = aim.through(g, at);
+                if f < aim.bound {
                     self.open.push(Candidate::new(f, Next::Way(way)));
                 }
             }
@@ -368,26 +450,14 @@ impl TangentGraph {
         })
     }
 
-    /// Puts the ways on from a label into the open list, if they may lead to a path shorter than
-    /// `bound`.
-    fn reopen(&mut self, label: u32, end: Point, bound: f64) {
-        let open = &mut self.open;
-        self.tree.each_way(label, |k, way| {
-            let f = way.g + (end - way.at).norm();
-            if f < bound {
-                open.push(Candidate::new(f, Next::Way(k)));
-            }
-        });
-    }
-
     /// Puts the last piece from a label into the open list, if there is one, unseen.
-    fn try_end(&mut self, label: u32, target: &Disc, bound: f64) {
+    fn try_end(&mut self, label: u32, target: &Disc, aim: &Aim) {
         let from = &self.tree.labels[label as usize];
         if let Some(tangent) = self.last_piece(from, target)
             && let Some(arc) = self.round(from.node, from.arriving, tangent.leaving)
         {
             let length = from.g + arc + tangent.length;
-            if length < bound {
+            if length < aim.bound {
                 self.open.push(Candidate::new(length, Next::End(label)));
             }
         }
@@ -414,7 +484,9 @@ impl TangentGraph {
     fn route(&self, label: u32, target: &Disc, length: f64) -> Route {
         let mut bends = Vec::new();
         let mut label = &self.tree.labels[label as usize];
-        let mut leaving = self.last_piece(label, target).map(|tangent| tangent.leaving);
+        let mut leaving = self
+            .last_piece(label, target)
+            .map(|tangent| tangent.leaving);
         while let Some(to) = leaving.filter(|_| !label.is_root()) {
             let (disc, turn) = (&self.discs[label.node as usize / 2], turn_of(label.node));
             let angle = turn.angle(label.arriving, to);
@@ -454,7 +526,10 @@ fn node_of(disc: usize, turn: Turn) -> u32 {
     index(2 * disc + usize::from(turn == Turn::Right))
 }
 
-#[expect(clippy::cast_possible_truncation, reason = "as many of anything fit no memory")]
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "as many of anything fit no memory"
+)]
 fn index(k: usize) -> u32 {
     k as u32
 }

@@ -10,7 +10,12 @@ use std::cmp::Ordering;
 pub(super) struct Tree {
     /// The first is the root.
     pub(super) labels: Vec<Label>,
-    pub(super) ways: Vec<Way>,
+    ways: Vec<Way>,
+    /// By label and group: no path from the label to the obstacle's circle, and from there on to
+    /// somewhere, is shorter than this and the straight line there from the circle's middle.
+    /// Infinite for obstacles that are no way on, or the ways to which are known.
+    least: Vec<f64>,
+    groups: usize,
     /// By node: its labels.
     pub(super) settled: Vec<Vec<u32>>,
 }
@@ -35,23 +40,15 @@ pub(super) struct Label {
 /// A way on from a label that was not looked at yet.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Way {
-    /// No path over it is shorter than this and the straight line on from `at`.
+    /// Its length.
     pub(super) g: f64,
+    /// Where it ends.
     pub(super) at: Point,
-    pub(super) to: To,
+    pub(super) edge: u32,
     /// Whose way it is; nobody's once it was taken.
     pub(super) label: u32,
     /// Another way of the same label.
     next: u32,
-}
-
-/// Where a [`Way`] goes.
-#[derive(Clone, Copy, Debug)]
-pub(super) enum To {
-    /// To one of the discs of an obstacle; `g` counts from its circle to its circle.
-    Group(u32),
-    /// Over an edge.
-    Edge(u32),
 }
 
 const NONE: u32 = u32::MAX;
@@ -95,24 +92,65 @@ impl Tree {
             self.settled[label.node as usize].clear();
         }
         self.ways.clear();
+        self.least.clear();
     }
 
-    /// Adds a label that has no ways on yet.
-    pub(super) fn add(&mut self, label: Label) -> u32 {
+    /// Forgets all, and makes ready for that many nodes and groups.
+    pub(super) fn fit(&mut self, nodes: usize, groups: usize) {
+        self.clear();
+        self.settled.resize(nodes, Vec::new());
+        self.groups = groups;
+    }
+
+    /// Adds a label, and by group the least that ways to it and on may cost.
+    pub(super) fn add(&mut self, label: Label, least: impl Iterator<Item = f64>) -> u32 {
         let here = index(self.labels.len());
         self.settled[label.node as usize].push(here);
         self.labels.push(label);
+        self.least.extend(least);
         here
     }
 
+    /// By group the least that ways from a label may cost, and the place to take it from.
+    pub(super) fn least(&self, label: u32) -> impl Iterator<Item = (u32, f64)> {
+        let first = label as usize * self.groups;
+        let row = &self.least[first..first + self.groups];
+        (index(first)..).zip(row.iter().copied())
+    }
+
+    /// The least that a path over a label and an obstacle may cost, given how far each obstacle is
+    /// from where it is to lead. Four at a time, because most labels are done with after this.
+    pub(super) fn least_with(&self, label: u32, to_end: &[f64]) -> f64 {
+        let first = label as usize * self.groups;
+        let row = &self.least[first..first + self.groups];
+        let lesser = |a: f64, b: f64| if b < a { b } else { a };
+        let (fours, rest) = row.as_chunks::<4>();
+        let (to_fours, to_rest) = to_end.as_chunks::<4>();
+        let mut least = [f64::INFINITY; 4];
+        for (g, to_end) in fours.iter().zip(to_fours) {
+            for k in 0..4 {
+                least[k] = lesser(least[k], g[k] + to_end[k]);
+            }
+        }
+        let rest = rest.iter().zip(to_rest).map(|(g, to_end)| g + to_end);
+        rest.chain(least).fold(f64::INFINITY, lesser)
+    }
+
+    /// The label and the group of such a place, the ways to which are going to be known.
+    pub(super) fn take_group(&mut self, place: u32) -> (u32, u32) {
+        let groups = index(self.groups);
+        self.least[place as usize] = f64::INFINITY;
+        (place / groups, place % groups)
+    }
+
     /// Adds a way on from a label.
-    pub(super) fn add_way(&mut self, label: u32, to: To, g: f64, at: Point) -> u32 {
+    pub(super) fn add_way(&mut self, label: u32, edge: u32, g: f64, at: Point) -> u32 {
         let here = index(self.ways.len());
         let next = std::mem::replace(&mut self.labels[label as usize].ways, here);
         self.ways.push(Way {
             g,
             at,
-            to,
+            edge,
             label,
             next,
         });
@@ -150,12 +188,16 @@ impl Tree {
 /// What a query looks at next.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(super) enum Next {
-    /// What goes on from a label.
+    /// All that goes on from a label.
     Label(u32),
-    /// The last piece, from a label to the end asked for.
-    End(u32),
+    /// The obstacles next to a label that had to wait.
+    Ways(u32),
+    /// The ways from a label to an obstacle.
+    Group(u32),
     /// One of the tree's ways.
     Way(u32),
+    /// The last piece, from a label to the end asked for.
+    End(u32),
 }
 
 /// An entry of the open list.
