@@ -64,14 +64,15 @@ impl Picture {
             let shapes = a.shapes().filter(|&(id, shape)| other(id, shape));
             shapes.map(|(_, shape)| shape.clone()).collect()
         };
+        // What is there hides what was, not the other way round.
         let kinds = [
-            (differs(before, now), palette::NEW_FREE, "was there"),
-            (differs(now, before), palette::NEW_BLOCKED, "new there"),
+            (differs(before, now), palette::NEW_FREE, 0.85, "was there"),
+            (differs(now, before), palette::NEW_BLOCKED, 1.0, "new there"),
         ];
-        for (shapes, fill, words) in kinds {
+        for (shapes, fill, opacity, words) in kinds {
             if !shapes.is_empty() {
-                self.shapes(shapes, 0.0, fill, 0.85);
-                self = self.key(Key::Cells(fill, 0.85), words);
+                self.shapes(shapes, 0.0, fill, opacity);
+                self = self.key(Key::Cells(fill, opacity), words);
             }
         }
         self

@@ -2,7 +2,7 @@
 
 use crate::{
     map,
-    worlds::{ROOMS, has_note, number, one, plan, planners_in, world},
+    worlds::{ROOMS, has_note, list, number, one, plan, planners_in, world},
 };
 use serde_json::json;
 
@@ -49,8 +49,8 @@ fn cell_says_how_fine_a_world_is_cut() {
     assert_eq!(coarse["path"], json!([]));
     has_note(&coarse, "converted: ", "20 x 10 cells of 1");
     has_note(&coarse, "unproved: ", "over smaller ones (--cell)");
-    let fine = one(&ask("0.1").ends(0));
-    has_note(&fine, "converted: ", "200 x 100 cells of 0.1");
+    let ten_times_finer = one(&ask("0.1").ends(0));
+    has_note(&ten_times_finer, "converted: ", "200 x 100 cells of 0.1");
 }
 
 #[test]
@@ -120,7 +120,7 @@ fn planners_in_worlds_go_straight_on_grids_and_prove_nothing() {
             "unproved: ",
             "not proved to be the best of the map",
         );
-        let path = straight["path"].as_array().unwrap();
+        let path = list(&straight["path"]);
         assert_eq!(
             (&path[0], path.last()),
             (&json!([0, 0]), Some(&json!([9, 0])))

@@ -36,9 +36,9 @@ pub(crate) fn world(toml: &str) -> Folder {
 pub(crate) fn planners_in(problem: &str) -> Vec<(String, Vec<String>)> {
     let objects = pf(&["planners", "--json"]).ends(0).json();
     let of_kind = objects.iter().filter(|o| o["problem"] == problem);
-    let text = |value: &Value| value.as_str().unwrap().to_owned();
+    let text = |value: &Value| value.as_str().expect("a string").to_owned();
     let planners = of_kind.map(|object| {
-        let claims = object["claims"].as_array().unwrap();
+        let claims = list(&object["claims"]);
         (text(&object["name"]), claims.iter().map(text).collect())
     });
     planners.collect()
@@ -61,9 +61,13 @@ pub(crate) fn number(object: &Value, key: &str) -> f64 {
     value.unwrap_or_else(|| panic!("no number {key} in {object}"))
 }
 
+pub(crate) fn list(value: &Value) -> &[Value] {
+    value.as_array().expect("an array")
+}
+
 fn notes(object: &Value) -> Vec<&str> {
-    let notes = object["notes"].as_array().unwrap();
-    notes.iter().map(|note| note.as_str().unwrap()).collect()
+    let notes = list(&object["notes"]).iter();
+    notes.map(|note| note.as_str().expect("a string")).collect()
 }
 
 #[track_caller]
@@ -95,12 +99,12 @@ fn every_planner_in_worlds_finds_the_door() {
         let outcome = if proves { "optimal" } else { "feasible" };
         assert_eq!(object["outcome"], outcome, "{planner}");
         assert_eq!(object["notes"], json!([]), "{planner}");
-        let path = object["path"].as_array().unwrap();
+        let path = list(&object["path"]);
         assert_eq!(
             (&path[0], path.last()),
             (&json!([2, 2]), Some(&json!([18, 2])))
         );
-        assert!(path.iter().all(|p| p.as_array().unwrap().len() == 2));
+        assert!(path.iter().all(|p| list(p).len() == 2));
         let (cost, length) = (number(&object, "cost"), number(&object, "length"));
         assert!((cost - length).abs() < 1e-9, "{cost} {length}");
         assert!(length >= shortest - 1e-9, "{length} {shortest}");

@@ -2,7 +2,7 @@
 
 use crate::{
     Folder, pf,
-    worlds::{ROOMS, number, one, plan, world},
+    worlds::{ROOMS, list, number, one, plan, world},
 };
 use serde_json::{Value, json};
 use std::fs;
@@ -73,7 +73,7 @@ fn goals_and_obstacles_move_in_worlds() {
         ]
     );
     let end = |object: &Value, last: bool| {
-        let path = object["path"].as_array().unwrap();
+        let path = list(&object["path"]);
         path[if last { path.len() - 1 } else { 0 }].clone()
     };
     assert_eq!(
