@@ -296,10 +296,8 @@ impl Yard {
                 let last = self.world.shape(self.world.next_id() - 1);
                 if let Some(Shape::Rectangle(last)) = last {
                     let (left, bottom) = (last.max().x, last.min().y);
-                    self.add(
-                        "pallet",
-                        rectangle([left, bottom, left + 1.2, bottom + 0.8]),
-                    );
+                    let corners = [left, bottom, left + 1.2, bottom + 0.8];
+                    self.add("pallet", rectangle(corners.map(rounded)));
                 }
             }
         }

@@ -246,10 +246,12 @@ impl Told<'_> {
     /// How much the planner looked at.
     fn expanded(&self) -> String {
         let what = match self.entry.problem() {
-            "grid" => "cells",
-            _ => "points",
+            "grid" => "cell",
+            _ => "point",
         };
-        format!("{} {what}", text::count(self.answer.stats.expanded))
+        let count = self.answer.stats.expanded;
+        let many = if count == 1 { "" } else { "s" };
+        format!("{} {what}{many}", text::count(count))
     }
 
     /// Planner, file, size, query.

@@ -1,5 +1,8 @@
 //! Our distances are parry's, on a million random pairs, and the judge's decisions follow from
 //! them.
+//!
+//! Parry's are its closed forms: its general algorithm (GJK) stops some 5e-8 short of the distance,
+//! further than the judge may err. `docs/decisions/0008-distances-of-our-own.md` says more.
 
 #![expect(clippy::unwrap_used, reason = "tests")]
 #![expect(clippy::many_single_char_names, reason = "points")]

@@ -17,6 +17,9 @@ pub(crate) const TEXT: &str = "#24292f";
 /// Blocked cells: all, and on a map drawn coarser than its cells the parts of one in four.
 pub(crate) const BLOCKED: [&str; 4] = ["#b9bfc8", "#8a919c", "#5d646e", "#2f343b"];
 
+/// Cells that a world's obstacles block: unlike the tint of what is too near, which they cover.
+pub(crate) const BLOCKED_CELL: &str = "#c49c4c";
+
 /// Terrain from cheap to dear.
 pub(crate) const TERRAIN: [&str; 6] = [
     "#fbf3df", "#f3e3bb", "#e8cf95", "#d8b76f", "#c49c4c", "#a87d30",

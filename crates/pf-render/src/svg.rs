@@ -180,9 +180,10 @@ fn dots(out: &mut String, page: &Page, points: &[[f64; 2]], colour: &str) {
         let [x, y] = page.place(point).map(short);
         let _ = write!(data, "M{x} {y}h0");
     }
+    // A white rim keeps them apart from obstacles, at whose corners they lie.
     let _ = writeln!(
         out,
-        r#"<path fill="none" stroke="{colour}" stroke-width="5" stroke-linecap="round" d="{data}"/>"#
+        r##"<g fill="none" stroke-linecap="round"><path stroke="#fff" stroke-width="7.5" d="{data}"/><path stroke="{colour}" stroke-width="5.5" d="{data}"/></g>"##
     );
 }
 
@@ -338,7 +339,7 @@ fn swatch(out: &mut String, key: Key, [x, y]: [f64; 2]) {
         Key::Dot(colour) => {
             let _ = write!(
                 out,
-                r#"<circle cx="{}" cy="{y}" r="2.5" fill="{colour}"/>"#,
+                r#"<circle cx="{}" cy="{y}" r="3" fill="{colour}"/>"#,
                 x + 11.0
             );
         }

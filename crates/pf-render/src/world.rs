@@ -52,8 +52,8 @@ impl Picture {
         raster.fill((columns, rows), |corner, size| {
             u8::from(cells(corner, size).any(|cell| !grid.is_free(cell)))
         });
-        self.push_cells(&raster, 1, palette::BLOCKED[0], OPACITY);
-        self.key(Key::Cells(palette::BLOCKED[0], OPACITY), "blocked cell")
+        self.push_cells(&raster, 1, palette::BLOCKED_CELL, OPACITY);
+        self.key(Key::Cells(palette::BLOCKED_CELL, OPACITY), "blocked cell")
     }
 
     /// Obstacles that came, went or moved from one world to another, by their ids.
@@ -64,14 +64,15 @@ impl Picture {
             let shapes = a.shapes().filter(|&(id, shape)| other(id, shape));
             shapes.map(|(_, shape)| shape.clone()).collect()
         };
+        // What is there hides what was, not the other way round.
         let kinds = [
-            (differs(before, now), palette::NEW_FREE, "was there"),
-            (differs(now, before), palette::NEW_BLOCKED, "new there"),
+            (differs(before, now), palette::NEW_FREE, 0.85, "was there"),
+            (differs(now, before), palette::NEW_BLOCKED, 1.0, "new there"),
         ];
-        for (shapes, fill, words) in kinds {
+        for (shapes, fill, opacity, words) in kinds {
             if !shapes.is_empty() {
-                self.shapes(shapes, 0.0, fill, 0.85);
-                self = self.key(Key::Cells(fill, 0.85), words);
+                self.shapes(shapes, 0.0, fill, opacity);
+                self = self.key(Key::Cells(fill, opacity), words);
             }
         }
         self
@@ -90,7 +91,7 @@ impl Picture {
     /// Points a search looked at, darker the later.
     #[must_use]
     pub fn reached(mut self, order: &[[f64; 2]]) -> Self {
-        const DARK: usize = 3;
+        const DARK: usize = 4;
         if order.is_empty() {
             return self;
         }
@@ -191,8 +192,13 @@ fn cut(points: &[[f64; 2]], longest: f64) -> Vec<[[f64; 2]; 2]> {
     pieces
 }
 
+/// With two decimals, and those from ten on with one: in a legend there is little room.
 fn rounded(x: f64) -> String {
-    let text = format!("{x:.2}");
+    let text = if x < 10.0 {
+        format!("{x:.2}")
+    } else {
+        format!("{x:.1}")
+    };
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 

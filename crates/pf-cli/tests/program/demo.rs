@@ -25,5 +25,11 @@ fn it_compares_all_planners_and_draws() {
     let names: Vec<_> = files.map(|f| f.unwrap().file_name()).collect();
     assert!(names.contains(&"maze-astar.svg".into()), "{names:?}");
     assert!(names.contains(&"maze-astar.png".into()), "{names:?}");
-    assert!(names.contains(&"yard-astar.png".into()), "{names:?}");
+    for picture in [
+        "yard-astar.png",
+        "yard-visibility-graph.png",
+        "maze-visibility-graph.png",
+    ] {
+        assert!(names.contains(&picture.into()), "{names:?}");
+    }
 }

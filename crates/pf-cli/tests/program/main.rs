@@ -1,13 +1,18 @@
 //! The program as its users see it: what it prints, what it writes, how it ends.
 
 mod answers;
+mod conversions;
 mod demo;
 mod faults;
 mod interrupts;
 #[path = "../../../pf-io/tests/inputs/malformed.rs"]
 mod malformed;
+#[path = "../../../pf-io/tests/inputs/malformed_worlds.rs"]
+mod malformed_worlds;
 mod replans;
 mod scens;
+mod worlds;
+mod worlds_in_time;
 
 use serde_json::Value;
 use std::{
