@@ -46,11 +46,11 @@ impl<W: Word> Buckets<W> {
         self.len == 0
     }
 
-    /// Adds `id` under `key`, with a value of the caller's. The key must not lie below the current
-    /// bucket.
+    /// Adds `id` under `key`, with a value of the caller's. A key below the current bucket comes
+    /// next.
     #[inline]
     pub fn push(&mut self, key: W, id: u32, value: W) {
-        let slot = self.slot(key.bucket(self.shift));
+        let slot = self.slot(key.bucket(self.shift).max(self.current));
         self.ring[slot].push((id, value));
         self.len += 1;
     }

@@ -108,26 +108,35 @@ impl Problem for GridProblem {
         if last != self.goal {
             return Err(Violation::WrongGoal);
         }
-        let mut cost = GridCost::ZERO;
+        let (layout, uniform) = (self.grid.layout(), self.grid.is_uniform());
+        let (mut straight, mut diagonal) = (0, 0);
+        let mut id = layout.id(first);
         for (at, pair) in path.windows(2).enumerate() {
             let (from, to) = (pair[0], pair[1]);
-            if !self.grid.is_free(to) {
-                return Err(Violation::Collision { at });
+            let k = direction(from, to);
+            let legal = self.moves.legal(self.grid.around_id(id));
+            // The border is never free, so no legal step leaves the grid.
+            if u32::from(legal) >> k & 1 == 0 {
+                return Err(if self.grid.is_free(to) {
+                    Violation::IllegalMove { at }
+                } else {
+                    Violation::Collision { at }
+                });
             }
-            let step = (
-                i64::from(to.x) - i64::from(from.x),
-                i64::from(to.y) - i64::from(from.y),
-            );
-            let around = self.grid.around_id(self.grid.layout().id(from));
-            let legal = self.moves.legal(around);
-            let direction = DIRECTIONS
-                .iter()
-                .position(|&(dx, dy)| (i64::from(dx), i64::from(dy)) == step);
-            if direction.is_none_or(|k| legal >> k & 1 == 0) {
-                return Err(Violation::IllegalMove { at });
+            let next = layout.id(to);
+            let cost = if uniform {
+                2
+            } else {
+                u64::from(self.grid.cost_id(id)) + u64::from(self.grid.cost_id(next))
+            };
+            if k < 4 {
+                straight += cost;
+            } else {
+                diagonal += cost;
             }
-            cost = cost + self.grid.step_cost(from, to);
+            id = next;
         }
+        let cost = GridCost { straight, diagonal };
         Ok(cost)
     }
 
@@ -171,6 +180,29 @@ impl Problem for GridProblem {
     fn stamp(&self) -> Stamp {
         self.stamp
     }
+}
+
+/// In which of the [`DIRECTIONS`] the step goes; 8 if it is no step to a neighbour.
+#[inline]
+fn direction(from: Cell, to: Cell) -> u32 {
+    const STEPS: [u32; 9] = {
+        let mut steps = [8; 9];
+        let mut k = 0;
+        while k < 8 {
+            let (dx, dy) = DIRECTIONS[k as usize];
+            #[expect(clippy::cast_sign_loss, reason = "0 to 8")]
+            let place = (3 * (dy + 1) + dx + 1) as usize;
+            steps[place] = k;
+            k += 1;
+        }
+        steps
+    };
+    let dx = to.x.wrapping_sub(from.x).wrapping_add(1);
+    let dy = to.y.wrapping_sub(from.y).wrapping_add(1);
+    if dx > 2 || dy > 2 {
+        return 8;
+    }
+    STEPS[(3 * dy + dx) as usize]
 }
 
 #[cfg(test)]

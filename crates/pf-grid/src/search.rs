@@ -48,6 +48,8 @@ pub struct Search<W: Copy> {
     generation: u16,
     open: Buckets<W>,
     layout: Option<Layout>,
+    /// Where the last search's best path was known to go on.
+    reached: u32,
 }
 
 impl<W: Word> Search<W> {
@@ -61,6 +63,27 @@ impl<W: Word> Search<W> {
         heuristic: impl Fn(u32) -> W,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
+        let goal = goal.map_or(u32::MAX, |cell| problem.grid().layout().id(cell));
+        let arrive = |id, _| (id == goal).then(W::default);
+        self.run_until(problem, start, |id| Some(heuristic(id)), arrive, cx)
+    }
+
+    /// Searches from `start` until no path shorter than the best one known is possible.
+    ///
+    /// `heuristic` takes ids and bounds from below what is left to go; `None` if nothing leads on
+    /// from there. `arrive` is told every id expanded and its weight from the start, and says what
+    /// it takes to go on to the goal in a way the caller knows, if it knows one. An id may be
+    /// expanded, and told, more than once.
+    ///
+    /// A heuristic that is not consistent costs expansions, not exactness.
+    pub fn run_until(
+        &mut self,
+        problem: &GridProblem,
+        start: Cell,
+        heuristic: impl Fn(u32) -> Option<W>,
+        arrive: impl FnMut(u32, W) -> Option<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
         let grid = problem.grid();
         let weights = Weights::of(grid);
         let moves = problem.moves();
@@ -70,7 +93,9 @@ impl<W: Word> Search<W> {
         }
         let layout = grid.layout();
         let start = layout.id(start);
-        let first = heuristic(start);
+        let Some(first) = heuristic(start) else {
+            return End::Exhausted;
+        };
         // One step changes the key by its weight and the heuristic by no more than that.
         let reach = weights.reach();
 
@@ -82,21 +107,20 @@ impl<W: Word> Search<W> {
             closed: false,
         };
         self.open.push(first, start, W::default());
-        let goal = goal.map_or(u32::MAX, |cell| layout.id(cell));
         if weights.is_uniform() {
             let pruned = Pruned {
                 grid,
                 moves,
                 successors: successors(moves),
             };
-            self.search(layout, goal, heuristic, &pruned, cx)
+            self.search(layout, heuristic, arrive, &pruned, cx)
         } else {
             let weighed = Weighed {
                 grid,
                 moves,
                 weights,
             };
-            self.search(layout, goal, heuristic, &weighed, cx)
+            self.search(layout, heuristic, arrive, &weighed, cx)
         }
     }
 
@@ -117,8 +141,8 @@ impl<W: Word> Search<W> {
     fn search<S: Steps<W>>(
         &mut self,
         layout: &Layout,
-        goal: u32,
-        heuristic: impl Fn(u32) -> W,
+        heuristic: impl Fn(u32) -> Option<W>,
+        mut arrive: impl FnMut(u32, W) -> Option<W>,
         steps: &S,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
@@ -138,9 +162,15 @@ impl<W: Word> Search<W> {
             record.closed = true;
             let arrivals = record.arrivals;
             cx.expanded(|| layout.cell(id));
-            if id == goal {
-                bound = g;
-                continue;
+            if let Some(rest) = arrive(id, g) {
+                if g + rest < bound {
+                    bound = g + rest;
+                    self.reached = id;
+                }
+                // There is no better way on from here.
+                if heuristic(id).is_none_or(|least| least >= rest) {
+                    continue;
+                }
             }
             let mut onward = steps.onward(id, arrivals);
             while onward != 0 {
@@ -169,7 +199,10 @@ impl<W: Word> Search<W> {
                         closed: false,
                     };
                 }
-                let key = next_g + heuristic(next);
+                let Some(least) = heuristic(next) else {
+                    continue;
+                };
+                let key = next_g + least;
                 if key < bound {
                     self.open.push(key, next, next_g);
                 } else {
@@ -184,6 +217,13 @@ impl<W: Word> Search<W> {
         } else {
             End::Exhausted
         }
+    }
+
+    /// The cell from which the last search's best path goes on in a way its caller knew: the goal,
+    /// of a plain search.
+    #[must_use]
+    pub fn reached(&self) -> u32 {
+        self.reached
     }
 
     /// The weight at which the last search reached a cell: the least one if the cell was expanded.
