@@ -4,10 +4,12 @@
 //! that is busy is busy for all of them. A query is asked several times and its least time counts;
 //! over queries there are medians and geometric means. Every answer is checked.
 
+mod cases;
 mod grid;
 mod memory;
 mod peers;
 mod protocol;
+mod replan;
 mod worlds;
 
 use anyhow::Result;
@@ -27,6 +29,8 @@ enum Suite {
     Grid(grid::Args),
     /// Bytes a cell that planners take on grids of 4096 x 4096
     Memory(memory::Args),
+    /// Latency and upkeep after changes of map or query, beside a fresh A*
+    Replan(replan::Args),
     /// Kernels, shortest paths and changes among shapes, and their peers
     Worlds(worlds::Args),
 }
@@ -35,6 +39,7 @@ fn main() -> Result<()> {
     match Cli::parse().suite {
         Suite::Grid(args) => grid::run(&args),
         Suite::Memory(args) => memory::run(&args),
+        Suite::Replan(args) => replan::run(&args),
         Suite::Worlds(args) => worlds::run(&args),
     }
 }

@@ -38,6 +38,11 @@ impl Tally {
         self.micros.push(least);
     }
 
+    /// How many queries were asked.
+    pub(crate) fn queries(&self) -> usize {
+        self.micros.len()
+    }
+
     pub(crate) fn mean(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a number of queries")]
         let queries = self.micros.len() as f64;
