@@ -29,6 +29,24 @@ pub(crate) struct Case {
 impl Maps {
     /// The files asked for, in the order of their names.
     pub(crate) fn files(&self) -> Result<Vec<PathBuf>> {
+        self.files_or(&[])
+    }
+
+    /// The same; where no map is asked for, those whose names contain one of `usual`, if there are
+    /// any.
+    pub(crate) fn files_or(&self, usual: &[&str]) -> Result<Vec<PathBuf>> {
+        let asked: Vec<&str> = self.filter.iter().map(String::as_str).collect();
+        let mut maps = self.matching(if asked.is_empty() { usual } else { &asked })?;
+        if maps.is_empty() && asked.is_empty() {
+            maps = self.matching(&[])?;
+        }
+        if maps.is_empty() {
+            bail!("{}: no .map file of that name in it", self.maps.display());
+        }
+        Ok(maps)
+    }
+
+    fn matching(&self, parts: &[&str]) -> Result<Vec<PathBuf>> {
         let folder = &self.maps;
         let entries = std::fs::read_dir(folder)
             .with_context(|| format!("{}: expected a folder of .map files", folder.display()))?;
@@ -36,15 +54,12 @@ impl Maps {
         for entry in entries {
             let path = entry?.path();
             let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let wanted = self.filter.is_empty() || self.filter.iter().any(|f| name.contains(f));
+            let wanted = parts.is_empty() || parts.iter().any(|part| name.contains(part));
             if name.ends_with(".map") && wanted {
                 maps.push(path.clone());
             }
         }
         maps.sort();
-        if maps.is_empty() {
-            bail!("{}: no .map file of that name in it", folder.display());
-        }
         Ok(maps)
     }
 }

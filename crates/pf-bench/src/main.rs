@@ -5,6 +5,8 @@
 //! over queries there are medians and geometric means. Every answer is checked.
 
 mod cases;
+mod contenders;
+mod drive;
 mod grid;
 mod memory;
 mod peers;
@@ -25,6 +27,8 @@ struct Cli {
 
 #[derive(clap::Subcommand)]
 enum Suite {
+    /// A robot with a sensor in an unknown map: all planning of a drive, beside a fresh A*
+    Drive(drive::Args),
     /// A*, Dijkstra and their peers on the queries of Moving AI scenario files
     Grid(grid::Args),
     /// Bytes a cell that planners take on grids of 4096 x 4096
@@ -37,6 +41,7 @@ enum Suite {
 
 fn main() -> Result<()> {
     match Cli::parse().suite {
+        Suite::Drive(args) => drive::run(&args),
         Suite::Grid(args) => grid::run(&args),
         Suite::Memory(args) => memory::run(&args),
         Suite::Replan(args) => replan::run(&args),

@@ -43,10 +43,14 @@ impl Tally {
         self.micros.len()
     }
 
+    pub(crate) fn sum(&self) -> f64 {
+        self.micros.iter().sum()
+    }
+
     pub(crate) fn mean(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a number of queries")]
         let queries = self.micros.len() as f64;
-        self.micros.iter().sum::<f64>() / queries
+        self.sum() / queries
     }
 
     /// The value below which a share of the queries lies.
@@ -66,7 +70,7 @@ impl Tally {
     pub(crate) fn ns_per_expansion(&self) -> Option<f64> {
         #[expect(clippy::cast_precision_loss, reason = "a number of expansions")]
         let expanded = self.expanded as f64;
-        (self.expanded > 0).then(|| self.micros.iter().sum::<f64>() * 1e3 / expanded)
+        (self.expanded > 0).then(|| self.sum() * 1e3 / expanded)
     }
 
     pub(crate) fn row(&self, case: &str, planner: &str) -> Row {

@@ -15,14 +15,14 @@ mod event;
 
 use crate::{
     cases::{Case, Maps},
+    contenders::{FRESH, Ours, Repairers, proved},
     protocol::{Tally, geometric_mean, json, say, timed},
 };
-use anyhow::{Context as _, Result, anyhow, bail};
+use anyhow::{Result, bail};
 use condor::Condor;
 use event::{Class, Event};
-use pf_core::{Context, Outcome, Problem, Replanner, Report};
+use pf_core::{Context, Problem};
 use pf_grid::{Cell, GridCost, GridProblem, Moves};
-use pf_planners::{Entry, grid_planners};
 use serde::Serialize;
 use std::time::Duration;
 
@@ -35,12 +35,8 @@ Examples:
 pub(crate) struct Args {
     #[command(flatten)]
     maps: Maps,
-    /// Which planners answer beside the fresh A*; without a word all that repair
-    #[arg(long, value_name = "NAME")]
-    planner: Vec<String>,
-    /// Set a parameter of these planners
-    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = setting)]
-    settings: Vec<(String, String)>,
+    #[command(flatten)]
+    planners: Repairers,
     /// Only events of this class: 10-near, 1%-near, 1%-anywhere, block-7x7, goal-moved,
     /// robot-moved; may be given again
     #[arg(long, value_name = "CLASS", value_parser = class)]
@@ -60,28 +56,12 @@ pub(crate) struct Args {
     json: bool,
 }
 
-fn setting(text: &str) -> Result<(String, String), &'static str> {
-    let pair = text.split_once('=').filter(|(key, _)| !key.is_empty());
-    pair.map(|(key, value)| (key.to_owned(), value.to_owned()))
-        .ok_or("a setting is written key=value")
-}
-
 fn class(text: &str) -> Result<Class, String> {
     let found = Class::ALL.into_iter().find(|class| class.name() == text);
     found.ok_or_else(|| {
         let names: Vec<_> = Class::ALL.iter().map(|class| class.name()).collect();
         format!("expected {}", names.join(", "))
     })
-}
-
-/// The baseline: every answer is compared with its, and every latency.
-const FRESH: &str = "astar";
-
-/// A planner of ours.
-struct Ours {
-    name: &'static str,
-    planner: Box<dyn Replanner<GridProblem>>,
-    count: Count,
 }
 
 /// What a contender did over the queries of one map and class.
@@ -125,7 +105,6 @@ struct Row {
 }
 
 pub(crate) fn run(args: &Args) -> Result<()> {
-    let entries = entries(&args.planner)?;
     let rules = match &args.moves[..] {
         [] => &[Moves::OnlyWhenNoObstacles, Moves::Orthogonal][..],
         asked => asked,
@@ -142,7 +121,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         let case = Case::load(&map)?;
         for &moves in rules {
             for &class in classes {
-                let told = bench(args, &entries, &case, moves, class)?;
+                let told = bench(args, &case, moves, class)?;
                 for row in &told {
                     if args.json {
                         json(row)?;
@@ -166,49 +145,14 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     Ok(())
 }
 
-fn entries(asked: &[String]) -> Result<Vec<&'static Entry<GridProblem>>> {
-    let find = |name: &str| grid_planners().find(|entry| entry.key() == name);
-    let mut entries = vec![find(FRESH).context("there is an A*")?];
-    if asked.is_empty() {
-        entries.extend(grid_planners().filter(|entry| entry.replans()));
-    }
-    for name in asked {
-        let known = || {
-            let names: Vec<_> = grid_planners().map(Entry::key).collect();
-            anyhow!(
-                "--planner: no planner on grids is called {name}; known: {}",
-                names.join(", ")
-            )
-        };
-        let entry = find(name).ok_or_else(known)?;
-        if entries.iter().all(|other| other.key() != entry.key()) {
-            entries.push(entry);
-        }
-    }
-    Ok(entries)
-}
-
 /// All queries of a map and class.
-fn bench(
-    args: &Args,
-    entries: &[&'static Entry<GridProblem>],
-    case: &Case,
-    moves: Moves,
-    class: Class,
-) -> Result<Vec<Row>> {
-    let mut ours = Vec::new();
-    for entry in entries {
-        let settings = if entry.key() == FRESH {
-            &[]
-        } else {
-            &args.settings[..]
-        };
-        ours.push(Ours {
-            name: entry.key(),
-            planner: entry.make(settings)?,
-            count: Count::default(),
-        });
-    }
+fn bench(args: &Args, case: &Case, moves: Moves, class: Class) -> Result<Vec<Row>> {
+    let mut ours: Vec<(Ours, Count)> = args
+        .planners
+        .make()?
+        .into_iter()
+        .map(|one| (one, Count::default()))
+        .collect();
     let mut condor = if moves == Moves::Orthogonal && case.grid.is_uniform() {
         Some((Condor::on(&case.grid)?, Count::default()))
     } else {
@@ -223,7 +167,7 @@ fn bench(
             pf_grid::GridChange::GoalMoved(row.goal),
         ])?;
         let mut path = None;
-        for one in ours.iter_mut().rev() {
+        for (one, _) in ours.iter_mut().rev() {
             let report = one
                 .planner
                 .plan(&problem, &mut Context::seeded(args.seed))?;
@@ -252,11 +196,11 @@ fn bench(
         )?;
         problem.apply(&event.undo)?;
     }
-    let fresh = ours[0].count.latency.quantile(0.5);
+    let fresh = ours[0].1.latency.quantile(0.5);
     let peer = condor.map(|(_, count)| (condor::NAME, count));
     let all = ours
         .into_iter()
-        .map(|one| (one.name, one.count))
+        .map(|(one, count)| (one.name, count))
         .chain(peer);
     Ok(all
         .map(|(name, count)| count.row(case, moves, class, name, fresh))
@@ -266,7 +210,7 @@ fn bench(
 /// Lets an event happen and all contenders answer it.
 fn shot(
     seed: u64,
-    ours: &mut [Ours],
+    ours: &mut [(Ours, Count)],
     condor: &mut Option<(Condor, Count)>,
     class: Class,
     event: &Event,
@@ -275,11 +219,11 @@ fn shot(
     let (change, revision) = timed(|| problem.revise(&event.changes));
     let revision = revision?;
     let contenders = ours.len() + usize::from(condor.is_some());
-    let first = ours[0].count.latency.queries() % contenders;
+    let first = ours[0].1.latency.queries() % contenders;
     let mut times = vec![Duration::ZERO; contenders];
     let mut costs = vec![None; contenders];
     for k in (0..contenders).map(|k| (first + k) % contenders) {
-        let Some(one) = ours.get_mut(k) else {
+        let Some((one, count)) = ours.get_mut(k) else {
             if let Some((condor, _)) = condor {
                 let (time, steps) = condor.answer(class, event, revision.problem());
                 times[k] = time;
@@ -292,13 +236,13 @@ fn shot(
         let report = report?;
         times[k] = change + time;
         costs[k] = proved(&report);
-        one.count.latency.expanded += report.stats.expanded;
-        one.count.afresh += u32::from(report.note("replanned") != Some("repaired"));
+        count.latency.expanded += report.stats.expanded;
+        count.afresh += u32::from(report.note("replanned") != Some("repaired"));
         let mut cx = Context::seeded(seed);
         let (time, ()) = timed(|| one.planner.settle(revision.problem(), &mut cx));
-        one.count.upkeep.add(time);
+        count.upkeep.add(time);
     }
-    let counts = ours.iter_mut().map(|one| &mut one.count);
+    let counts = ours.iter_mut().map(|(_, count)| count);
     let counts = counts.chain(condor.iter_mut().map(|(_, count)| count));
     for (k, count) in counts.enumerate() {
         count.latency.add(times[k]);
@@ -309,16 +253,6 @@ fn shot(
         count.latency.mismatches += u64::from(!right);
     }
     Ok(())
-}
-
-/// The cost of a path that is proved to be the best, or `Some(None)` for the proof that there is
-/// none.
-fn proved(report: &Report<GridProblem>) -> Option<Option<GridCost>> {
-    match &report.outcome {
-        Outcome::Optimal(best) => Some(Some(best.cost)),
-        Outcome::Infeasible => Some(None),
-        _ => None,
-    }
 }
 
 impl Count {
