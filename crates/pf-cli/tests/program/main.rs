@@ -2,6 +2,7 @@
 
 mod answers;
 mod demo;
+mod drives;
 mod faults;
 mod interrupts;
 #[path = "../../../pf-io/tests/inputs/malformed.rs"]
