@@ -1,7 +1,7 @@
 //! Which maps and queries a suite asks about.
 
 use anyhow::{Context as _, Result, bail};
-use pf_grid::Grid;
+use pf_grid::{Grid, Moves};
 use pf_io::{LoadOptions, Scen, ScenRow, load_grid, read_scen};
 use std::{
     path::{Path, PathBuf},
@@ -82,6 +82,14 @@ impl Case {
         })
     }
 
+    /// The name under moves: as it is under Moving AI's.
+    pub(crate) fn under(&self, moves: Moves) -> String {
+        if moves == Moves::default() {
+            return self.name.clone();
+        }
+        format!("{}, {moves}", self.name)
+    }
+
     /// At most so many queries, spread evenly over all in the order of their lengths.
     pub(crate) fn spread(&self, limit: usize) -> Vec<&ScenRow> {
         evenly(&self.by_length(), limit)
@@ -118,6 +126,6 @@ mod tests {
         assert_eq!(evenly(&all, 2), [2, 7]);
         assert_eq!(evenly(&all, 10), all);
         assert_eq!(evenly(&all, 99), all);
-        assert_eq!(evenly(&all[..0], 3), []);
+        assert!(evenly(&all[..0], 3).is_empty());
     }
 }

@@ -8,8 +8,8 @@ use crate::{
     report, text, view,
 };
 use pf_core::{CancelToken, Context, Replanner, Stop};
-use pf_grid::{Arrival, Cell, Drive, GridProblem, Travel};
-use pf_io::{kind_of, read_scen};
+use pf_grid::{Arrival, Cell, Drive, Grid, GridProblem, Travel};
+use pf_io::{FileKind, kind_of, read_scen};
 use pf_planners::{AnyEntry, Entry, GridScene, Line, Scene, grid_planners};
 use pf_render::{Line as Pen, Picture};
 use serde::Serialize;
@@ -27,13 +27,15 @@ use std::{
 /// With --radius or --clearance the map is first inflated by the robot's size, and that is what it
 /// sees.
 ///
+/// Without a query it drives from the map's first free cell to its last, row by row.
+///
 /// The latency runs from a discovery to the answer, the change of the known map included; the planning
 /// in all also counts the first plan and the upkeep after each answer. Beside what the way has cost
 /// stands what it would have cost with the map known.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
-  pf drive maps/grids/redlarski/maze-100.map --sensor 10 --from 0,0 --to 99,99
+  pf drive maps/grids/redlarski/maze-100.map --sensor 10
   pf drive arena.map --sensor 15 --scen arena.map.scen --row 130 --json
   pf drive office.yaml --sensor 40 --from 20,30 --to 370,270 --radius 3 --svg drive.svg
   pf drive arena.map --sensor 8 --from 3,4 --to 60,41 --planner astar --moves always")]
@@ -174,7 +176,8 @@ fn no_grid(map: &Path) -> Failure {
 
 /// Where to drive.
 fn ask(args: &Args) -> Result<Question, Failure> {
-    if question::is_about_a_world(kind_of(&args.map)?) {
+    let kind = kind_of(&args.map)?;
+    if question::is_about_a_world(kind) {
         return Err(no_grid(&args.map));
     }
     let mut options = args.question.clone();
@@ -190,6 +193,15 @@ fn ask(args: &Args) -> Result<Question, Failure> {
         };
         options.from = Some(found.start.into());
         options.to = Some(found.goal.into());
+    } else if kind == FileKind::Grid && options.from.is_none() && options.to.is_none() {
+        let grid = question::grid(&args.map, &args.question)?;
+        let reach = options.radius.unwrap_or(0.0) + options.clearance.unwrap_or(0.0);
+        let ends = if reach > 0.0 {
+            ends(&grid.inflated(reach))
+        } else {
+            ends(&grid)
+        };
+        [options.from, options.to] = ends.map(|cell| Some(cell.into()));
     }
     let mut questions = question::read(&args.map, &options)?;
     if questions.len() > 1 {
@@ -199,6 +211,16 @@ fn ask(args: &Args) -> Result<Question, Failure> {
     }
     let none = || Failure::usage(format!("{} asks nothing", args.map.display()));
     questions.pop().ok_or_else(none)
+}
+
+/// The first and the last free cell, row by row; of a map that is blocked all over, its corners.
+fn ends(grid: &Grid) -> [Cell; 2] {
+    let free = || grid.layout().cells().filter(|&cell| grid.is_free(cell));
+    let last = Cell::new(grid.width() - 1, grid.height() - 1);
+    [
+        free().next().unwrap_or_default(),
+        free().last().unwrap_or(last),
+    ]
 }
 
 fn context(args: &Args, cancel: &CancelToken) -> Context<'static, GridProblem> {

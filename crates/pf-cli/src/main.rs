@@ -40,7 +40,7 @@ Examples:
   pf plan yard.toml --planner visibility-graph --clearance 0.5 --png yard.png
   pf plan arena.map --scen arena.map.scen
   pf replan door.toml --planner d-star-lite --json
-  pf drive maze.map --sensor 10 --from 0,0 --to 99,99
+  pf drive maze.map --sensor 10 --svg drive.svg
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed

@@ -308,7 +308,7 @@ impl Picture {
     /// # Errors
     /// [`NoPicture`] if it cannot be drawn.
     pub fn png(&self) -> Result<Vec<u8>, NoPicture> {
-        png::draw(&self.svg())
+        png::png_of(&self.svg())
     }
 
     fn next_colour(&self) -> &'static str {

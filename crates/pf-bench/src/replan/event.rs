@@ -92,21 +92,15 @@ impl Event {
         let cells = match class {
             Class::NearTen => draw(&mut rng, 10, &Window::around(robot, NEAR, grid), kept),
             Class::NearPercent => {
-                let window = (1..)
+                let window = (1..=grid.width().max(grid.height()))
                     .map(|reach| Window::around(robot, reach, grid))
-                    .find(|w| w.cells() >= ROOM * percent || w.is_all(grid))?;
+                    .find(|w| w.cells() >= ROOM * percent)
+                    .unwrap_or(Window::all(grid));
                 draw(&mut rng, percent, &window, kept)
             }
             Class::AnywherePercent => draw(&mut rng, percent, &Window::all(grid), kept),
             Class::Block => {
-                let clear = |cell: Cell| {
-                    let far = |other: Cell| {
-                        cell.x.abs_diff(other.x).max(cell.y.abs_diff(other.y)) > REACH
-                    };
-                    far(robot) && far(goal)
-                };
-                let middles: Vec<Cell> = path[at..].iter().copied().filter(|&c| clear(c)).collect();
-                let middle = *pick(&mut rng, &middles)?;
+                let middle = middle(&mut rng, &path[at..])?;
                 let block = Window::around(middle, REACH, grid);
                 block.iter().filter(|&cell| grid.is_free(cell)).collect()
             }
@@ -172,10 +166,6 @@ impl Window {
         (self.columns[1] - self.columns[0]) * (self.rows[1] - self.rows[0])
     }
 
-    fn is_all(&self, grid: &Grid) -> bool {
-        self.cells() == grid.width() * grid.height()
-    }
-
     fn iter(&self) -> impl Iterator<Item = Cell> + use<> {
         let [left, right] = self.columns;
         (self.rows[0]..self.rows[1]).flat_map(move |y| (left..right).map(move |x| Cell { x, y }))
@@ -192,6 +182,15 @@ fn draw(rng: &mut PlanRng, count: u32, window: &Window, kept: impl Fn(Cell) -> b
     }
     cells.truncate(count);
     cells
+}
+
+/// A cell of a way around which a block has room, covering neither of its ends.
+fn middle(rng: &mut PlanRng, way: &[Cell]) -> Option<Cell> {
+    let ends = [*way.first()?, *way.last()?];
+    let apart = |a: Cell, b: Cell| a.x.abs_diff(b.x).max(a.y.abs_diff(b.y)) > REACH;
+    let clear = |cell: &Cell| ends.iter().all(|&end| apart(*cell, end));
+    let middles: Vec<Cell> = way.iter().copied().filter(clear).collect();
+    pick(rng, &middles).copied()
 }
 
 fn pick<'c, T>(rng: &mut PlanRng, from: &'c [T]) -> Option<&'c T> {

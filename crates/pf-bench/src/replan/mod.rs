@@ -272,7 +272,7 @@ impl Count {
         self.paired.sort_by(f64::total_cmp);
         Row {
             suite: "replan",
-            case: case.name.clone(),
+            case: case.under(moves),
             moves: moves.name(),
             event: class.name(),
             planner,
@@ -294,9 +294,8 @@ impl Count {
 
 fn header() -> Result<()> {
     say(format_args!(
-        "{:<20} {:<18} {:<12} {:<22} {:>7} {:>10} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>7} {:>10}",
+        "{:<27} {:<12} {:<22} {:>7} {:>10} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>7} {:>10}",
         "map",
-        "moves",
         "event",
         "planner",
         "queries",
@@ -317,9 +316,8 @@ fn tell(row: &Row) -> Result<()> {
         value.map_or("-".to_owned(), |value| format!("{value:.digits$}"))
     };
     say(format_args!(
-        "{:<20} {:<18} {:<12} {:<22} {:>7} {:>10.1} {:>10.1} {:>8.2} {:>8.2} {:>9} {:>9} {:>9} {:>7} {:>10}",
+        "{:<27} {:<12} {:<22} {:>7} {:>10.1} {:>10.1} {:>8.2} {:>8.2} {:>9} {:>9} {:>9} {:>7} {:>10}",
         row.case,
-        row.moves,
         row.event,
         row.planner,
         row.queries,
@@ -346,13 +344,15 @@ fn summary(rows: &[Row], rules: &[Moves], classes: &[Class]) -> Result<()> {
                     planners.push(row.planner);
                 }
             }
+            let all_of = |planner: &str| {
+                let rows = rows.iter().filter(here);
+                let rows = rows.filter(|row| row.planner == planner && row.queries > 0);
+                rows.collect::<Vec<_>>()
+            };
+            let peer = all_of(condor::NAME);
             for planner in planners {
-                let speedups: Vec<f64> = rows
-                    .iter()
-                    .filter(here)
-                    .filter(|row| row.planner == planner && row.queries > 0)
-                    .map(|row| row.speedup)
-                    .collect();
+                let own = all_of(planner);
+                let speedups: Vec<f64> = own.iter().map(|row| row.speedup).collect();
                 let least = speedups.iter().copied().fold(f64::INFINITY, f64::min);
                 say(format_args!(
                     "{moves}, {}: {planner} is {:.2} times as fast as a fresh A* (geometric mean \
@@ -361,6 +361,22 @@ fn summary(rows: &[Row], rules: &[Moves], classes: &[Class]) -> Result<()> {
                     geometric_mean(&speedups),
                     speedups.len()
                 ))?;
+                if planner == condor::NAME || peer.len() != own.len() {
+                    continue;
+                }
+                let beside = own.iter().zip(&peer);
+                let beside: Vec<f64> = beside.map(|(a, b)| b.median_us / a.median_us).collect();
+                if !beside.is_empty() {
+                    let least = beside.iter().copied().fold(f64::INFINITY, f64::min);
+                    say(format_args!(
+                        "{moves}, {}: {planner} is {:.2} times as fast as {} (geometric mean of {} \
+                         maps; least {least:.2})",
+                        class.name(),
+                        geometric_mean(&beside),
+                        condor::NAME,
+                        beside.len()
+                    ))?;
+                }
             }
         }
     }

@@ -95,8 +95,8 @@ fn a_budget_too_small_is_no_proof() {
 
 #[test]
 fn a_robot_with_a_size_keeps_its_distance() {
-    let gap = "........ ...#.... ...#.... ........ ...#.... ........";
-    let there = ["--from", "0,3", "--to", "7,3"];
+    let gap = "........ ........ ........ ...#.... ...#.... ........ ...#.... ...#....";
+    let there = ["--from", "0,5", "--to", "7,5"];
     let cost = |radius| {
         let object = drive(&map(gap), &[&there[..], &["--radius", radius]].concat());
         object["cost"].as_f64().unwrap()
@@ -122,6 +122,26 @@ fn a_row_of_a_scenario_file_says_where() {
         .ends(2)
         .says(&["no such row", "1 to 2"]);
     }
+}
+
+#[test]
+fn without_a_query_it_drives_across() {
+    let object = drive(&map("#.... ..... ...##"), &[]);
+    let path = object["path"].as_array().unwrap();
+    assert_eq!(
+        (&path[0], &path[path.len() - 1]),
+        (&[1, 0].into(), &[2, 2].into())
+    );
+    let args = [
+        "drive",
+        "maps/grids/redlarski/maze-100.map",
+        "--sensor",
+        "10",
+        "--json",
+    ];
+    assert_eq!(pf(&args).ends(0).json()[0]["outcome"], "feasible");
+    // Nowhere to be is nowhere to go.
+    pf(&["drive", &map("##").name("m.map"), "--sensor", "1"]).ends(4);
 }
 
 #[test]
@@ -160,9 +180,9 @@ fn what_makes_no_sense_is_refused() {
         let args = [&["drive", &file], &there[..], more].concat();
         pf(&args).ends(2).says(&[words]);
     }
-    pf(&["drive", &file, "--sensor", "2"])
+    pf(&["drive", &file, "--sensor", "2", "--from", "0,0"])
         .ends(2)
-        .says(&["--from"]);
+        .says(&["--to"]);
     pf(&[
         "drive", &file, "--sensor", "2", "--from", "0,0", "--to", "99,0",
     ])
