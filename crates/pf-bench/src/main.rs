@@ -1,40 +1,5 @@
-//! Benchmarks, beside other crates where there are some, by one protocol.
-//!
-//! All contenders answer the same queries in one process, one after the other, so that a machine
-//! that is busy is busy for all of them. A query is asked several times and its least time counts;
-//! over queries there are medians and geometric means. Every answer is checked.
+//! `cargo xtask bench`.
 
-mod grid;
-mod memory;
-mod peers;
-mod protocol;
-mod worlds;
-
-use anyhow::Result;
-use clap::Parser;
-
-/// Benchmarks of pf's planners
-#[derive(Parser)]
-#[command(name = "cargo xtask bench")]
-struct Cli {
-    #[command(subcommand)]
-    suite: Suite,
-}
-
-#[derive(clap::Subcommand)]
-enum Suite {
-    /// A*, Dijkstra and their peers on the queries of Moving AI scenario files
-    Grid(grid::Args),
-    /// Bytes a cell that planners take on grids of 4096 x 4096
-    Memory(memory::Args),
-    /// Kernels, shortest paths and changes among shapes, and their peers
-    Worlds(worlds::Args),
-}
-
-fn main() -> Result<()> {
-    match Cli::parse().suite {
-        Suite::Grid(args) => grid::run(&args),
-        Suite::Memory(args) => memory::run(&args),
-        Suite::Worlds(args) => worlds::run(&args),
-    }
+fn main() -> anyhow::Result<()> {
+    pf_bench::run(None)
 }

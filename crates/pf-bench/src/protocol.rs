@@ -26,6 +26,8 @@ pub(crate) struct Tally {
     micros: Vec<f64>,
     pub(crate) mismatches: u64,
     pub(crate) expanded: u64,
+    /// Queries to which the answer was that there is no path.
+    pub(crate) unsolved: u64,
 }
 
 impl Tally {
@@ -38,10 +40,19 @@ impl Tally {
         self.micros.push(least);
     }
 
+    /// How many queries were asked.
+    pub(crate) fn queries(&self) -> usize {
+        self.micros.len()
+    }
+
+    pub(crate) fn sum(&self) -> f64 {
+        self.micros.iter().sum()
+    }
+
     pub(crate) fn mean(&self) -> f64 {
         #[expect(clippy::cast_precision_loss, reason = "a number of queries")]
         let queries = self.micros.len() as f64;
-        self.micros.iter().sum::<f64>() / queries
+        self.sum() / queries
     }
 
     /// The value below which a share of the queries lies.
@@ -61,7 +72,16 @@ impl Tally {
     pub(crate) fn ns_per_expansion(&self) -> Option<f64> {
         #[expect(clippy::cast_precision_loss, reason = "a number of expansions")]
         let expanded = self.expanded as f64;
-        (self.expanded > 0).then(|| self.micros.iter().sum::<f64>() * 1e3 / expanded)
+        (self.expanded > 0).then(|| self.sum() * 1e3 / expanded)
+    }
+
+    fn expansions(&self) -> Option<f64> {
+        #[expect(
+            clippy::cast_precision_loss,
+            reason = "numbers of expansions and queries"
+        )]
+        let mean = self.expanded as f64 / self.micros.len() as f64;
+        (self.expanded > 0).then_some(mean)
     }
 
     pub(crate) fn row(&self, case: &str, planner: &str) -> Row {
@@ -76,6 +96,12 @@ impl Tally {
             mismatches: self.mismatches,
             ns_per_expansion: self.ns_per_expansion(),
             bytes_per_cell: None,
+            kind: "",
+            moves: None,
+            expanded: self.expansions(),
+            allocations: None,
+            unsolved: self.unsolved,
+            original_ns_per_expansion: None,
         }
     }
 }
@@ -95,6 +121,22 @@ pub(crate) struct Row {
     pub(crate) ns_per_expansion: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     pub(crate) bytes_per_cell: Option<f64>,
+    /// Rows of a kind are compared with each other.
+    #[serde(skip)]
+    pub(crate) kind: &'static str,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) moves: Option<&'static str>,
+    /// Per query.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) expanded: Option<f64>,
+    /// Per query, once there is all the memory that is wanted.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) allocations: Option<f64>,
+    /// Queries to which the answer was that there is no path.
+    pub(crate) unsolved: u64,
+    /// Of the map that this one was made from by cutting its cells.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub(crate) original_ns_per_expansion: Option<f64>,
 }
 
 /// Prints a line to stdout.

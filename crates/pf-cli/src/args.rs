@@ -84,7 +84,7 @@ impl PlannerArgs {
 }
 
 /// The question, where the file does not say it or says it otherwise.
-#[derive(Args, Debug)]
+#[derive(Args, Clone, Debug)]
 #[command(next_help_heading = "Question")]
 pub(crate) struct QuestionArgs {
     /// Where from: on a grid column and row, from 0, rows down; in a world a point, y up

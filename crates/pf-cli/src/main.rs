@@ -6,6 +6,7 @@
 
 mod args;
 mod demo;
+mod drive;
 mod explain;
 mod failure;
 mod interrupt;
@@ -39,6 +40,7 @@ Examples:
   pf plan yard.toml --planner visibility-graph --clearance 0.5 --png yard.png
   pf plan arena.map --scen arena.map.scen
   pf replan door.toml --planner d-star-lite --json
+  pf drive maze.map --sensor 10 --svg drive.svg
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed
@@ -51,6 +53,8 @@ enum Verb {
     Plan(plan::Args),
     /// Play the timed changes of a scenario and plan anew after each
     Replan(replan::Args),
+    /// Drive a robot with a sensor through a map it does not know
+    Drive(drive::Args),
     /// List the planners
     Planners(planners::Args),
     /// Compare all planners on a few maps and draw pictures
@@ -70,6 +74,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
     match verb {
         Verb::Plan(args) => plan::act(&args, &cancel),
         Verb::Replan(args) => replan::act(&args, &cancel),
+        Verb::Drive(args) => drive::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),
     }

@@ -179,6 +179,18 @@ impl Picture {
         self.key(Key::Cells(palette::INFLATED, 1.0), "too near for the robot")
     }
 
+    /// Cells that nobody has seen, in a light tint: what is drawn of them is presumed.
+    #[must_use]
+    pub fn unseen(mut self, seen: impl Fn(Cell) -> bool) -> Self {
+        let mut raster = self.raster();
+        let [width, height] = self.lattice.size;
+        raster.fill((width, height), |corner, size| {
+            u8::from(cells(corner, size).all(|cell| !seen(cell)))
+        });
+        self.push_cells(&raster, 1, palette::INFLATED, 1.0);
+        self.key(Key::Cells(palette::INFLATED, 1.0), "not seen")
+    }
+
     /// What a search looked at, translucent, darker the later.
     #[must_use]
     #[expect(clippy::cast_precision_loss, reason = "a shade needs no precision")]
@@ -296,7 +308,7 @@ impl Picture {
     /// # Errors
     /// [`NoPicture`] if it cannot be drawn.
     pub fn png(&self) -> Result<Vec<u8>, NoPicture> {
-        png::draw(&self.svg())
+        png::png_of(&self.svg())
     }
 
     fn next_colour(&self) -> &'static str {

@@ -11,7 +11,11 @@ use std::sync::Arc;
 #[error("cannot draw the picture: {0}")]
 pub struct NoPicture(String);
 
-pub(crate) fn draw(svg: &str) -> Result<Vec<u8>, NoPicture> {
+/// Any SVG as PNG, its text in `DejaVu` Sans: a chart, say, that another crate has made.
+///
+/// # Errors
+/// [`NoPicture`] if it is no SVG, or too large.
+pub fn png_of(svg: &str) -> Result<Vec<u8>, NoPicture> {
     let mut options = Options {
         font_family: "DejaVu Sans".to_owned(),
         ..Options::default()

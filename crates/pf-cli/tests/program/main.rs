@@ -3,6 +3,7 @@
 mod answers;
 mod conversions;
 mod demo;
+mod drives;
 mod faults;
 mod interrupts;
 #[path = "../../../pf-io/tests/inputs/malformed.rs"]

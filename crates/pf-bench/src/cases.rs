@@ -1,0 +1,131 @@
+//! Which maps and queries a suite asks about.
+
+use anyhow::{Context as _, Result, bail};
+use pf_grid::{Grid, Moves};
+use pf_io::{LoadOptions, Scen, ScenRow, load_grid, read_scen};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+/// Where maps come from.
+#[derive(clap::Args)]
+pub(crate) struct Maps {
+    /// A folder of Moving AI .map files, each with its .map.scen (or .scen) beside it
+    #[arg(long, value_name = "DIR", default_value = "../shared/data/movingai")]
+    maps: PathBuf,
+    /// Only maps whose name contains this; may be given again
+    #[arg(long, value_name = "TEXT", alias = "map", alias = "case")]
+    filter: Vec<String>,
+}
+
+/// A map and the queries of its scenario file.
+pub(crate) struct Case {
+    pub(crate) name: String,
+    pub(crate) grid: Arc<Grid>,
+    pub(crate) scen: Scen,
+}
+
+impl Maps {
+    /// The files asked for, in the order of their names.
+    pub(crate) fn files(&self) -> Result<Vec<PathBuf>> {
+        self.files_or(&[])
+    }
+
+    /// The same; where no map is asked for, those whose names contain one of `usual`, if there are
+    /// any.
+    pub(crate) fn files_or(&self, usual: &[&str]) -> Result<Vec<PathBuf>> {
+        let asked: Vec<&str> = self.filter.iter().map(String::as_str).collect();
+        let mut maps = self.matching(if asked.is_empty() { usual } else { &asked })?;
+        if maps.is_empty() && asked.is_empty() {
+            maps = self.matching(&[])?;
+        }
+        if maps.is_empty() {
+            bail!("{}: no .map file of that name in it", self.maps.display());
+        }
+        Ok(maps)
+    }
+
+    fn matching(&self, parts: &[&str]) -> Result<Vec<PathBuf>> {
+        let folder = &self.maps;
+        let entries = std::fs::read_dir(folder)
+            .with_context(|| format!("{}: expected a folder of .map files", folder.display()))?;
+        let mut maps = vec![];
+        for entry in entries {
+            let path = entry?.path();
+            let name = path.file_name().unwrap_or_default().to_string_lossy();
+            let wanted = parts.is_empty() || parts.iter().any(|part| name.contains(part));
+            if name.ends_with(".map") && wanted {
+                maps.push(path.clone());
+            }
+        }
+        maps.sort();
+        Ok(maps)
+    }
+}
+
+impl Case {
+    pub(crate) fn load(map: &Path) -> Result<Self> {
+        let grid = load_grid(map, &LoadOptions::default())?.grid;
+        let beside = PathBuf::from(format!("{}.scen", map.display()));
+        let scen = if beside.exists() {
+            read_scen(&beside)?
+        } else {
+            read_scen(&map.with_extension("scen"))?
+        };
+        scen.check_size(&grid)?;
+        let name = map.file_stem().unwrap_or_default().to_string_lossy();
+        Ok(Self {
+            name: name.into_owned(),
+            grid,
+            scen,
+        })
+    }
+
+    /// The name under moves: as it is under Moving AI's.
+    pub(crate) fn under(&self, moves: Moves) -> String {
+        if moves == Moves::default() {
+            return self.name.clone();
+        }
+        format!("{}, {moves}", self.name)
+    }
+
+    /// At most so many queries, spread evenly over all in the order of their lengths.
+    pub(crate) fn spread(&self, limit: usize) -> Vec<&ScenRow> {
+        evenly(&self.by_length(), limit)
+    }
+
+    /// The same of the longer half.
+    pub(crate) fn long(&self, limit: usize) -> Vec<&ScenRow> {
+        let rows = self.by_length();
+        evenly(&rows[rows.len() / 2..], limit)
+    }
+
+    fn by_length(&self) -> Vec<&ScenRow> {
+        let mut rows: Vec<_> = self.scen.rows.iter().collect();
+        rows.sort_by(|a, b| a.optimum.total_cmp(&b.optimum));
+        rows
+    }
+}
+
+/// The middle one of each of `limit` equal parts.
+fn evenly<T: Copy>(all: &[T], limit: usize) -> Vec<T> {
+    let count = limit.min(all.len());
+    (0..count)
+        .map(|k| all[(2 * k + 1) * all.len() / (2 * count)])
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn samples_are_spread_evenly() {
+        let all: Vec<u32> = (0..10).collect();
+        assert_eq!(evenly(&all, 2), [2, 7]);
+        assert_eq!(evenly(&all, 10), all);
+        assert_eq!(evenly(&all, 99), all);
+        assert!(evenly(&all[..0], 3).is_empty());
+    }
+}
