@@ -1,7 +1,7 @@
-//! The distance field of D* Lite, in one word width: the searches, not the bookkeeping around them.
+//! Distances to a goal that are repaired as the map changes: the searches of D* Lite.
 
+use crate::{Buckets, Cell, GridProblem, Layout, Weights, Word};
 use pf_core::Context;
-use pf_grid::{Buckets, Cell, GridProblem, Layout, Weights, Word};
 use std::{cmp::Reverse, collections::BinaryHeap};
 
 /// What the field knows of a cell.
@@ -25,9 +25,9 @@ struct Kept<W> {
 /// k1 = min(g, rhs) + h + `k_m`, k2 = min(g, rhs); the id breaks ties.
 type Key<W> = (W, W, u32);
 
-/// How a search of the field ended.
+/// How work on a [`DistanceField`] ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum End {
+pub enum Upkeep {
     /// The start's distance is known, or known to be infinite.
     Settled,
     /// The budget ran out. What was done so far is sound, a next repair goes on from it.
@@ -37,8 +37,13 @@ pub(super) enum End {
 }
 
 /// Distances to one goal, repaired as the map changes.
+///
+/// They are exact where a shortest path from the start may lead, and bounds from below elsewhere:
+/// [`estimate`](Self::estimate) says which.
+///
+/// Source: Koenig and Likhachev, *D\* Lite*, 2002, the optimised version (its Figure 4).
 #[derive(Clone, Debug)]
-pub(super) struct Field<W: Copy> {
+pub struct DistanceField<W: Copy> {
     nodes: Vec<Kept<W>>,
     generation: u16,
     layout: Option<Layout>,
@@ -53,9 +58,12 @@ pub(super) struct Field<W: Copy> {
     repairs: BinaryHeap<Reverse<Key<W>>>,
     /// Some distance was too long for the word and is held for infinite.
     too_far: bool,
+    /// The start whose distance the field was last settled for, and that distance; [`Word::MAX`]
+    /// if the goal is out of reach from there.
+    settled: Option<(Cell, W)>,
 }
 
-impl<W: Word> Default for Field<W> {
+impl<W: Word> Default for DistanceField<W> {
     fn default() -> Self {
         Self {
             nodes: Vec::new(),
@@ -68,24 +76,25 @@ impl<W: Word> Default for Field<W> {
             fresh: Buckets::default(),
             repairs: BinaryHeap::new(),
             too_far: false,
+            settled: None,
         }
     }
 }
 
-impl<W: Word> Field<W> {
+impl<W: Word> DistanceField<W> {
     /// Whether a field for this problem fits the word.
-    pub(super) fn fits(problem: &GridProblem) -> bool {
+    pub fn fits(problem: &GridProblem) -> bool {
         // A key is a distance, a heuristic and k_m, which stays below the limit, too.
         Weights::of(problem.grid()).fit::<W>(problem.grid(), 2)
     }
 
     /// Whether the field lies over a grid of the problem's shape.
-    pub(super) fn covers(&self, problem: &GridProblem) -> bool {
+    pub fn covers(&self, problem: &GridProblem) -> bool {
         self.layout == Some(*problem.grid().layout())
     }
 
     /// Whether the field can be repaired into one for `problem`.
-    pub(super) fn serves(&self, problem: &GridProblem) -> bool {
+    pub fn serves(&self, problem: &GridProblem) -> bool {
         self.covers(problem)
             && self.goal == problem.grid().layout().id(problem.goal())
             && self
@@ -95,13 +104,13 @@ impl<W: Word> Field<W> {
 
     /// Whether the answer may be wrong for want of width: the start seems out of reach, but some
     /// distances were cut off.
-    pub(super) fn is_too_narrow(&self, start: Cell) -> bool {
+    pub fn is_too_narrow(&self, start: Cell) -> bool {
         let rhs = |layout: Layout| self.node(layout.id(start)).rhs;
         self.too_far && self.layout.is_some_and(|layout| rhs(layout) == W::MAX)
     }
 
     /// Bytes held.
-    pub(super) fn bytes(&self) -> usize {
+    pub fn bytes(&self) -> usize {
         self.nodes.capacity() * size_of::<Kept<W>>()
             + self.fresh.bytes()
             + self.repairs.capacity() * size_of::<Reverse<Key<W>>>()
@@ -109,7 +118,71 @@ impl<W: Word> Field<W> {
 
     /// Searches from the goal to the start, forgetting what was known: A*, whose closed cells are
     /// consistent and whose open ones are overconsistent.
-    pub(super) fn plan(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> End {
+    pub fn plan(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Upkeep {
+        let end = self.search(problem, cx);
+        self.settle_for(end, problem.start())
+    }
+
+    fn settle_for(&mut self, end: Upkeep, start: Cell) -> Upkeep {
+        let rhs = self.layout.map(|layout| self.node(layout.id(start)).rhs);
+        self.settled = rhs.filter(|_| end == Upkeep::Settled).map(|rhs| (start, rhs));
+        end
+    }
+
+    /// The start for which the field holds, and its distance; `None` while work on the field is
+    /// unfinished.
+    #[must_use]
+    pub fn settled(&self) -> Option<(Cell, W)> {
+        self.settled
+    }
+
+    /// Gives the field up.
+    pub fn forget(&mut self) {
+        self.settled = None;
+        self.weights = None;
+    }
+
+    /// What is left to the goal from an id, as far as the settled field knows: the distance and
+    /// `true`, or a bound from below and `false`. [`Word::MAX`] if the goal is out of reach.
+    ///
+    /// `to_goal` and `to_start` are the heuristic's values for the goal and the settled start. It
+    /// is a consistent heuristic itself. A path over a cell that was not settled is no shorter than
+    /// the settled start's own.
+    #[inline]
+    #[must_use]
+    pub fn estimate(&self, id: u32, to_goal: W, to_start: W) -> (W, bool) {
+        let Some((_, whole)) = self.settled else {
+            return (to_goal, false);
+        };
+        let node = self.node(id);
+        let consistent = node.g == node.rhs;
+        if whole == W::MAX {
+            return if consistent {
+                (node.g, true)
+            } else {
+                (to_goal, false)
+            };
+        }
+        if consistent && node.g < W::LIMIT && node.g + to_start <= whole {
+            return (node.g, true);
+        }
+        let over = whole.max(to_start) - to_start;
+        (to_goal.max(over), false)
+    }
+
+    /// The neighbour over which so much is left from a cell, by a step that is legal now, and what
+    /// the step weighs; of several the first in the order of [`DIRECTIONS`](crate::DIRECTIONS).
+    #[must_use]
+    pub fn next(&self, problem: &GridProblem, id: u32, left: W) -> Option<(u32, W)> {
+        let repair = Repair::of(problem, self.weights);
+        let leads = |&(next, weight): &(u32, W)| {
+            let rest = self.node(next).g;
+            rest < left && rest + weight == left
+        };
+        repair.steps::<W>(id).find(leads)
+    }
+
+    fn search(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Upkeep {
         let grid = problem.grid();
         let layout = *grid.layout();
         let weights = Weights::of(grid);
@@ -133,7 +206,7 @@ impl<W: Word> Field<W> {
                 continue;
             }
             if !cx.proceed() {
-                return End::Cut;
+                return Upkeep::Cut;
             }
             self.set_g(id, value);
             cx.expanded(|| layout.cell(id));
@@ -158,11 +231,11 @@ impl<W: Word> Field<W> {
         }
         // What still waits there lies beyond the limit, unless the start was found first.
         self.too_far |= bound == W::LIMIT && !self.fresh.is_empty();
-        End::Settled
+        Upkeep::Settled
     }
 
     /// Hands the open list of a plan over to repairs. Costs the size of the list.
-    pub(super) fn prepare(&mut self, problem: &GridProblem) {
+    pub fn prepare(&mut self, problem: &GridProblem) {
         if self.fresh.is_empty() {
             return;
         }
@@ -181,20 +254,29 @@ impl<W: Word> Field<W> {
 
     /// Repairs the field after the map changed at `changed` and the robot moved to the problem's
     /// start, expanding at most `most` cells.
-    ///
-    /// Source: Koenig and Likhachev, *D\* Lite*, 2002, the optimised version (its Figure 4).
-    pub(super) fn repair(
+    pub fn repair(
         &mut self,
         problem: &GridProblem,
         changed: &[u32],
         most: u64,
         cx: &mut Context<'_, GridProblem>,
-    ) -> End {
+    ) -> Upkeep {
+        let end = self.mend(problem, changed, most, cx);
+        self.settle_for(end, problem.start())
+    }
+
+    fn mend(
+        &mut self,
+        problem: &GridProblem,
+        changed: &[u32],
+        most: u64,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Upkeep {
         self.prepare(problem);
         let repair = Repair::of(problem, self.weights);
         let moved = repair.between(self.start, problem.start());
         if self.k_m + moved >= W::LIMIT {
-            return End::GaveUp;
+            return Upkeep::GaveUp;
         }
         self.k_m = self.k_m + moved;
         self.start = problem.start();
@@ -227,10 +309,10 @@ impl<W: Word> Field<W> {
                 continue;
             }
             if expanded == most {
-                return End::GaveUp;
+                return Upkeep::GaveUp;
             }
             if !cx.proceed() {
-                return End::Cut;
+                return Upkeep::Cut;
             }
             self.repairs.pop();
             expanded += 1;
@@ -241,7 +323,7 @@ impl<W: Word> Field<W> {
                 self.raise(&repair, id);
             }
         }
-        End::Settled
+        Upkeep::Settled
     }
 
     /// An overconsistent cell takes its new distance, and its neighbours look at it.
@@ -315,37 +397,6 @@ impl<W: Word> Field<W> {
         W::MAX
     }
 
-    /// Downhill from the start: each step to the neighbour through which the goal is nearest; of
-    /// equally good ones the first in the order of [`DIRECTIONS`](pf_grid::DIRECTIONS). `None` if
-    /// the goal is out of reach.
-    pub(super) fn path(&self, problem: &GridProblem) -> Option<Vec<Cell>> {
-        let repair = Repair::of(problem, self.weights);
-        let mut id = repair.layout.id(problem.start());
-        let weight = self.node(id).rhs;
-        if weight == W::MAX {
-            return None;
-        }
-        // Every step weighs at least as much as a straight one.
-        let mut path = Vec::with_capacity(weight.over(W::STRAIGHT) + 1);
-        path.push(problem.start());
-        // A field that is not what it should be must not send the robot in circles.
-        while id != self.goal && path.len() <= self.nodes.len() {
-            let mut best = (W::MAX, id);
-            for (next, weight) in repair.steps::<W>(id) {
-                let g = self.node(next).g;
-                if g != W::MAX && g + weight < best.0 {
-                    best = (g + weight, next);
-                }
-            }
-            if best.1 == id {
-                break;
-            }
-            id = best.1;
-            path.push(repair.layout.cell(id));
-        }
-        Some(path)
-    }
-
     fn begin(&mut self, layout: Layout) {
         if self.layout != Some(layout) {
             self.layout = Some(layout);
@@ -361,6 +412,7 @@ impl<W: Word> Field<W> {
         self.repairs.clear();
         self.k_m = W::default();
         self.too_far = false;
+        self.settled = None;
     }
 
     #[inline]

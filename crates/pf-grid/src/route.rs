@@ -1,6 +1,6 @@
 //! The last answer's path, kept so that the next need not be read off a map again.
 
-use crate::{Cell, DIRECTIONS, Grid, GridProblem, Layout, Weights, Word};
+use crate::{Cell, DIRECTIONS, GridProblem, Layout, Weights, Word};
 
 /// A path to the goal, what is left of it at each cell, and how much of it still holds.
 ///

@@ -259,6 +259,19 @@ impl<W: Word> Search<W> {
         }
     }
 
+    /// The ids of the path on which the last search reached one, from there back to the start, each
+    /// with its weight. None if it did not.
+    pub fn back(&self, to: u32) -> impl Iterator<Item = (u32, W)> + '_ {
+        let offsets = self.layout.map_or([0; 8], |layout| layout.offsets());
+        let first = self.weight(to).map(|g| (to, g));
+        std::iter::successors(first, move |&(id, _)| {
+            let arrivals = self.records[id as usize].arrivals;
+            let k = arrivals.trailing_zeros() as usize;
+            let from = id.wrapping_add_signed(-*offsets.get(k)?);
+            Some((from, self.records[from as usize].g))
+        })
+    }
+
     /// Of the cells the last search reached, the one nearest `to` in a straight line; ties go to
     /// the upper, then the left one.
     #[must_use]

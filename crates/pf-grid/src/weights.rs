@@ -59,17 +59,22 @@ impl Weights {
     ) -> impl Fn(u32) -> W + use<W> {
         let layout = *grid.layout();
         let (goal_x, goal_y) = layout.position(layout.id(goal));
+        let apart = self.apart(moves);
+        move |id| {
+            let (x, y) = layout.position(id);
+            apart(x.abs_diff(goal_x), y.abs_diff(goal_y))
+        }
+    }
+
+    /// The same between two cells so many columns and rows apart.
+    pub fn apart<W: Word>(&self, moves: Moves) -> impl Fn(u32, u32) -> W + use<W> {
         let straight = W::STRAIGHT.times(self.least);
         // What a diagonal step saves against two straight ones.
         let saved = match moves {
             Moves::Orthogonal => W::default(),
             _ => straight + straight - W::DIAGONAL.times(self.least),
         };
-        move |id| {
-            let (x, y) = layout.position(id);
-            let (dx, dy) = (x.abs_diff(goal_x), y.abs_diff(goal_y));
-            straight.times(dx) + straight.times(dy) - saved.times(dx.min(dy))
-        }
+        move |dx, dy| straight.times(dx) + straight.times(dy) - saved.times(dx.min(dy))
     }
 
     /// By how much one step raises the key of a search at most: by its weight, and the heuristic

@@ -1,13 +1,13 @@
 //! D* Lite (Koenig and Likhachev 2002): a search from the goal that is repaired, not repeated.
 
-mod field;
+mod guided;
 
-use field::{End, Field};
+use guided::{Found, Guided};
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{GridChange, GridProblem, Word};
+use pf_grid::{GridChange, GridProblem};
 
 /// When to repair and when to start over.
 #[derive(Clone, Debug, PartialEq)]
@@ -16,25 +16,34 @@ pub struct DStarLiteParams {
     /// given up for a new plan; a plan counts as 1,000 expansions at least. 0 never repairs,
     /// infinity never gives up.
     pub patience: f64,
+    /// Whether every change is repaired before the answer, as published. Otherwise the answer
+    /// comes first, from a search that the distances direct as they are, and they are repaired in
+    /// `settle`, once such searches have cost more than a repair.
+    pub eager: bool,
 }
 
 impl Default for DStarLiteParams {
     /// An expansion of a repair costs some five times one of a plan, see `cargo xtask bench replan`.
     fn default() -> Self {
-        Self { patience: 0.1 }
+        Self {
+            patience: 0.1,
+            eager: false,
+        }
     }
 }
 
 params!(DStarLiteParams {
     patience: f64 = "share of a fresh plan's expansions after which a repair is given up",
+    eager: bool = "whether every change is repaired before the answer, as published",
 });
 
-/// Replans by repairing the distances to the goal where the change matters to the robot.
+/// Replans with the distances to the goal, repaired where a change matters to the robot.
 ///
 /// The distances are rooted at the goal, so a robot that moves and sees changes near itself costs
-/// little. A moved goal has no use for them and is planned afresh, and so is a change so large that
-/// repairing it would take longer. The note `replanned` says which it was: `repaired` or `afresh`.
-/// One iteration is one expansion.
+/// little. An answer comes in one of four ways; the note `replanned` says which: `kept`, where the
+/// last path is still best; `searched`, by a search from the robot that ends where distances are
+/// known; `repaired`, from repaired distances; `afresh`, where nothing of use is known, as for a
+/// moved goal. One iteration is one expansion.
 ///
 /// ```
 /// use pf_core::{Context, Planner, Problem, Replanner};
@@ -54,40 +63,49 @@ params!(DStarLiteParams {
 /// let revision = problem.revise(&changes).unwrap();
 /// let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
 /// assert_eq!(report.outcome.solved().unwrap().cost, GridCost::of_steps(3, 0));
-/// assert_eq!(report.note("replanned"), Some("repaired"));
+/// assert_eq!(report.note("replanned"), Some("searched"));
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct DStarLite {
     params: DStarLiteParams,
     width: Width,
-    /// What the field was last brought up to, but for `pending`.
+    /// What the changes are known up to.
     known: Option<Stamp>,
-    /// Ids of cells that changed since; they may not matter, or stand for nothing.
+    /// Ids of cells that changed since the field was settled; they may not matter, or stand for
+    /// nothing.
     pending: Vec<u32>,
+    /// The first of them that the answers do not know of.
+    told: usize,
     /// Expansions of the last plan from scratch.
     effort: u64,
+    /// Expansions of answers since the field was settled.
+    debt: u64,
 }
 
 #[derive(Clone, Debug)]
 enum Width {
-    Narrow(Field<u32>),
-    Wide(Field<u64>),
-    Huge(Field<u128>),
+    Narrow(Guided<u32>),
+    Wide(Guided<u64>),
+    Huge(Guided<u128>),
 }
 
 impl Default for Width {
     fn default() -> Self {
-        Self::Narrow(Field::default())
+        Self::Narrow(Guided::default())
     }
 }
 
+/// So many times the expansions of a plan may be spent on answers before the distances are made
+/// right: it takes about as long.
+const DEBT: u64 = 3;
+
 /// The same for whichever width is in use.
-macro_rules! field {
-    ($width:expr, $field:ident => $work:expr) => {
+macro_rules! guided {
+    ($width:expr, $guided:ident => $work:expr) => {
         match $width {
-            Width::Narrow($field) => $work,
-            Width::Wide($field) => $work,
-            Width::Huge($field) => $work,
+            Width::Narrow($guided) => $work,
+            Width::Wide($guided) => $work,
+            Width::Huge($guided) => $work,
         }
     };
 }
@@ -111,51 +129,37 @@ impl DStarLite {
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        field!(&self.width, field => field.bytes()) + self.pending.capacity() * size_of::<u32>()
+        guided!(&self.width, guided => guided.bytes()) + self.pending.capacity() * size_of::<u32>()
     }
 
-    fn afresh(
-        &mut self,
-        problem: &GridProblem,
-        cx: &mut Context<'_, GridProblem>,
-    ) -> Report<GridProblem> {
+    /// Makes the distances anew.
+    fn refresh(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
+        self.forget_changes();
         self.known = None;
-        self.pending.clear();
-        if is_hopeless(problem) {
-            return cx.report(Outcome::Infeasible);
-        }
         let before = cx.stats().expanded;
-        let end = self.plan_in_width(problem, cx);
+        let found = self.in_width(|width| guided!(width, guided => guided.plan(problem, cx)));
         self.effort = cx.stats().expanded - before;
-        if end == End::Settled {
+        if found != Found::Cut {
             self.known = Some(problem.stamp());
         }
-        self.read_off(problem, end, cx)
+        found
     }
 
-    /// Plans in the narrowest width that orders the paths there are exactly.
-    fn plan_in_width(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> End {
-        if !field!(&self.width, field => field.covers(problem)) {
-            self.width = Width::default();
-        }
+    fn forget_changes(&mut self) {
+        self.pending.clear();
+        self.told = 0;
+        self.debt = 0;
+    }
+
+    /// Works in the narrowest width that orders the paths there are exactly.
+    fn in_width(&mut self, mut work: impl FnMut(&mut Width) -> Found) -> Found {
         loop {
-            let end = field!(&mut self.width, field => plan_if_wide_enough(field, problem, cx));
-            match end {
-                Some(end) => return end,
-                None => self.widen(),
+            let found = work(&mut self.width);
+            if found != Found::TooFar {
+                return found;
             }
+            self.width.widen();
         }
-    }
-
-    fn widen(&mut self) {
-        // The old memory goes before the new comes.
-        let narrow = matches!(self.width, Width::Narrow(_));
-        self.width = Width::default();
-        self.width = if narrow {
-            Width::Wide(Field::default())
-        } else {
-            Width::Huge(Field::default())
-        };
     }
 
     /// How many expansions a repair is worth.
@@ -169,43 +173,86 @@ impl DStarLite {
         (self.effort.max(1000) as f64 * self.params.patience) as u64
     }
 
-    /// Repairs the field, if that is possible and worth it.
+    /// Repairs the distances, if that is possible and worth it.
     fn repair(
         &mut self,
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
-    ) -> Option<Report<GridProblem>> {
+    ) -> Option<Found> {
         let most = self.patience();
         // Looking at a changed cell's surroundings costs no less than an expansion.
-        let serves = field!(&self.width, field => field.serves(problem));
+        let serves = guided!(&self.width, guided => guided.field.serves(problem));
         if !serves || self.pending.len() as u64 > most {
             return None;
         }
         let pending = &self.pending;
-        let end = field!(&mut self.width, field => field.repair(problem, pending, most, cx));
-        self.pending.clear();
-        let narrow = field!(&self.width, field => field.is_too_narrow(problem.start()));
-        if end == End::GaveUp || narrow && end == End::Settled {
-            return None;
-        }
-        cx.note("replanned", "repaired");
-        Some(self.read_off(problem, end, cx))
+        let found = guided!(
+            &mut self.width,
+            guided => guided.repair(problem, pending, most, cx)
+        );
+        self.forget_changes();
+        found.filter(|&found| found != Found::TooFar)
     }
 
-    fn read_off(
+    /// Answers from what is known of the distances, and says how.
+    fn answer(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
+        let before = cx.stats().expanded;
+        let pending = &self.pending;
+        let told = self.told;
+        let mut knew;
+        let found = loop {
+            let width = &mut self.width;
+            knew = guided!(width, guided => guided.knows(problem));
+            let found = guided!(width, guided => guided.answer(problem, &pending[told..], cx));
+            if found != Found::TooFar {
+                break found;
+            }
+            self.width.widen();
+        };
+        self.told = self.pending.len();
+        let expanded = cx.stats().expanded - before;
+        self.debt += expanded;
+        if !knew {
+            self.effort = expanded;
+        }
+        cx.note(
+            "replanned",
+            match (knew, expanded) {
+                (false, _) => "afresh",
+                (true, 0) => "kept",
+                (true, _) => "searched",
+            },
+        );
+        found
+    }
+
+    fn report(
         &self,
         problem: &GridProblem,
-        end: End,
+        found: Found,
         cx: &mut Context<'_, GridProblem>,
     ) -> Report<GridProblem> {
-        if end != End::Settled {
-            return cx.report(Outcome::Unknown { attempt: None });
+        match found {
+            Found::Path => {
+                let path = guided!(&self.width, guided => guided.path());
+                cx.answer(problem, path, Proof::Optimal)
+            }
+            Found::Nothing => cx.report(Outcome::Infeasible),
+            Found::Cut | Found::TooFar => cx.report(Outcome::Unknown { attempt: None }),
         }
-        let path = field!(&self.width, field => field.path(problem));
-        match path {
-            Some(path) => cx.answer(problem, path, Proof::Optimal),
-            None => cx.report(Outcome::Infeasible),
-        }
+    }
+}
+
+impl Width {
+    fn widen(&mut self) {
+        let narrow = matches!(self, Self::Narrow(_));
+        // The old memory goes before the new comes.
+        *self = Self::default();
+        *self = if narrow {
+            Self::Wide(Guided::default())
+        } else {
+            Self::Huge(Guided::default())
+        };
     }
 }
 
@@ -213,19 +260,6 @@ impl DStarLite {
 fn is_hopeless(problem: &GridProblem) -> bool {
     let grid = problem.grid();
     !grid.is_free(problem.start()) || !grid.is_free(problem.goal())
-}
-
-fn plan_if_wide_enough<W: Word>(
-    field: &mut Field<W>,
-    problem: &GridProblem,
-    cx: &mut Context<'_, GridProblem>,
-) -> Option<End> {
-    if !Field::<W>::fits(problem) {
-        return None;
-    }
-    let end = field.plan(problem, cx);
-    let narrow = end == End::Settled && field.is_too_narrow(problem.start());
-    (!narrow).then_some(end)
 }
 
 impl Planner<GridProblem> for DStarLite {
@@ -246,7 +280,15 @@ impl Planner<GridProblem> for DStarLite {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        Ok(self.afresh(problem, cx))
+        if !guided!(&self.width, guided => guided.field.covers(problem)) {
+            self.width = Width::default();
+        }
+        if is_hopeless(problem) {
+            self.known = None;
+            return Ok(cx.report(Outcome::Infeasible));
+        }
+        let found = self.refresh(problem, cx);
+        Ok(self.report(problem, found, cx))
     }
 }
 
@@ -257,39 +299,59 @@ impl Replanner<GridProblem> for DStarLite {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         let problem = revision.problem();
-        if let Some(changes) = revision.since(self.known) {
-            let layout = problem.grid().layout();
-            for change in changes {
-                match change {
-                    GridChange::Blocked(cells)
-                    | GridChange::Freed(cells)
-                    | GridChange::CostChanged(cells, _) => {
-                        self.pending
-                            .extend(cells.iter().map(|&cell| layout.id(cell)));
-                    }
-                    GridChange::StartMoved(_) | GridChange::GoalMoved(_) => {}
+        let Some(changes) = revision.since(self.known) else {
+            cx.note("replanned", "afresh");
+            return self.plan(problem, cx);
+        };
+        let layout = problem.grid().layout();
+        for change in changes {
+            match change {
+                GridChange::Blocked(cells)
+                | GridChange::Freed(cells)
+                | GridChange::CostChanged(cells, _) => {
+                    self.pending
+                        .extend(cells.iter().map(|&cell| layout.id(cell)));
                 }
-            }
-            self.known = Some(problem.stamp());
-            if is_hopeless(problem) {
-                // What changed waits until there is something to find.
-                if self.pending.len() as u64 > self.patience() {
-                    self.known = None;
-                }
-                return Ok(cx.report(Outcome::Infeasible));
-            }
-            if let Some(report) = self.repair(problem, cx) {
-                return Ok(report);
+                GridChange::StartMoved(_) | GridChange::GoalMoved(_) => {}
             }
         }
-        cx.note("replanned", "afresh");
-        Ok(self.afresh(problem, cx))
+        self.known = Some(problem.stamp());
+        if self.pending.len() > layout.len() {
+            // More than there is to repair: only a new plan makes the distances right.
+            self.pending.clear();
+            self.told = 0;
+            self.known = None;
+            cx.note("replanned", "afresh");
+            return self.plan(problem, cx);
+        }
+        if is_hopeless(problem) {
+            return Ok(cx.report(Outcome::Infeasible));
+        }
+        if self.params.eager {
+            let found = if let Some(found) = self.repair(problem, cx) {
+                cx.note("replanned", "repaired");
+                found
+            } else {
+                cx.note("replanned", "afresh");
+                self.refresh(problem, cx)
+            };
+            return Ok(self.report(problem, found, cx));
+        }
+        let found = self.answer(problem, cx);
+        Ok(self.report(problem, found, cx))
     }
 
-    /// Turns the open list of a plan into that of repairs: one iteration.
+    /// Repairs the distances, or makes them anew, if answers have cost more than that since they
+    /// were last right: in iterations, an expansion each.
     fn settle(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
-        if self.known == Some(problem.stamp()) && cx.proceed() {
-            field!(&mut self.width, field => field.prepare(problem));
+        if self.known != Some(problem.stamp()) || !cx.proceed() {
+            return;
+        }
+        guided!(&mut self.width, guided => guided.prepare(problem));
+        if self.debt > DEBT * self.effort.max(1000) && !is_hopeless(problem)
+            && self.repair(problem, cx).is_none()
+        {
+            self.refresh(problem, cx);
         }
     }
 }

@@ -1,0 +1,368 @@
+//! Answers from what is known of the distances, in one word width.
+
+use pf_core::Context;
+use pf_grid::{
+    Cell, Damage, DistanceField, End, GridProblem, Route, Search, Upkeep, Weights, Word,
+};
+
+/// How an answer came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Found {
+    /// The route holds the answer.
+    Path,
+    /// Proof that there is none.
+    Nothing,
+    /// The budget ran out.
+    Cut,
+    /// The word is too narrow for this map.
+    TooFar,
+}
+
+/// A distance field, what is known beside it, and a search from the start that both direct.
+///
+/// The field is not repaired before an answer. A search from the robot takes what the field says as
+/// its heuristic, as far as the changes since let it stand ([`Damage`]), and ends where the way on
+/// is known: on the last route, or below all damage. What such a search finds out about the cells
+/// it expanded is kept for the next one: no way from there is shorter than the answer less the way
+/// there.
+///
+/// Source: Hernandez, Asin, Baier, *Making A\* run faster than D\*-Lite for path-planning in
+/// partially known terrain*, 2014 (MPAA\*); the distance field and the treatment of freed cells are
+/// ours.
+#[derive(Clone, Debug)]
+pub(super) struct Guided<W: Copy> {
+    pub(super) field: DistanceField<W>,
+    search: Search<W>,
+    route: Route<W>,
+    damage: Damage<W>,
+    /// What the changes are counted from: a goal and its weights.
+    basis: Option<(Cell, Weights)>,
+    /// By id: a bound from below on what is left to the basis' goal.
+    learnt: Vec<W>,
+    /// The ids with such a bound.
+    learners: Vec<u32>,
+    /// What the last search expanded.
+    closed: Vec<u32>,
+    /// The weight of what it found; [`Word::MAX`] if nothing.
+    whole: W,
+    /// Ids on the way down the field.
+    tail: Vec<(u32, W)>,
+}
+
+impl<W: Word> Default for Guided<W> {
+    fn default() -> Self {
+        Self {
+            field: DistanceField::default(),
+            search: Search::default(),
+            route: Route::default(),
+            damage: Damage::default(),
+            basis: None,
+            learnt: Vec::new(),
+            learners: Vec::new(),
+            closed: Vec::new(),
+            whole: W::MAX,
+            tail: Vec::new(),
+        }
+    }
+}
+
+impl<W: Word> Guided<W> {
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        self.field.bytes()
+            + self.search.bytes()
+            + self.route.bytes()
+            + self.learnt.capacity() * size_of::<W>()
+            + size_of::<u32>() * (self.learners.capacity() + self.closed.capacity())
+            + size_of::<(u32, W)>() * self.tail.capacity()
+    }
+
+    /// Makes the field anew and takes the answer from it.
+    pub(super) fn plan(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Found {
+        if !DistanceField::<W>::fits(problem) {
+            return Found::TooFar;
+        }
+        self.begin(problem);
+        let end = self.field.plan(problem, cx);
+        self.read_off(problem, end)
+    }
+
+    /// Repairs the field after all that changed since it was settled, and takes the answer from it;
+    /// `None` if that took too much.
+    pub(super) fn repair(
+        &mut self,
+        problem: &GridProblem,
+        changed: &[u32],
+        most: u64,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Option<Found> {
+        self.begin(problem);
+        match self.field.repair(problem, changed, most, cx) {
+            Upkeep::GaveUp => None,
+            end => Some(self.read_off(problem, end)),
+        }
+    }
+
+    /// Whether anything of use for this goal and these weights is known.
+    pub(super) fn knows(&self, problem: &GridProblem) -> bool {
+        let now = Weights::of(problem.grid());
+        self.basis
+            .is_some_and(|(goal, weights)| goal == problem.goal() && weights.hold_under(now))
+    }
+
+    /// Does what can be done before the next answer is asked for.
+    pub(super) fn prepare(&mut self, problem: &GridProblem) {
+        self.learn();
+        self.field.prepare(problem);
+    }
+
+    /// Nothing changed yet.
+    fn begin(&mut self, problem: &GridProblem) {
+        let layout = problem.grid().layout();
+        if self.learnt.len() != layout.len() {
+            self.learnt.clear();
+            self.learnt.resize(layout.len(), W::default());
+            self.learners.clear();
+        }
+        for id in self.learners.drain(..) {
+            self.learnt[id as usize] = W::default();
+        }
+        self.closed.clear();
+        self.route.clear(layout);
+        self.damage = Damage::default();
+        self.basis = Some((problem.goal(), Weights::of(problem.grid())));
+    }
+
+    fn read_off(&mut self, problem: &GridProblem, end: Upkeep) -> Found {
+        if end == Upkeep::Cut {
+            return Found::Cut;
+        }
+        if self.field.is_too_narrow(problem.start()) {
+            return Found::TooFar;
+        }
+        let layout = problem.grid().layout();
+        let start = layout.id(problem.start());
+        match self.field.settled() {
+            Some((_, whole)) if whole < W::MAX => {
+                self.go_down(problem, start, whole);
+                Found::Path
+            }
+            _ => Found::Nothing,
+        }
+    }
+
+    /// Answers after these further changes.
+    pub(super) fn answer(
+        &mut self,
+        problem: &GridProblem,
+        changed: &[u32],
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Found {
+        let grid = problem.grid();
+        let now = Weights::of(grid);
+        if !now.fit::<W>(grid, 2) {
+            return Found::TooFar;
+        }
+        self.learn();
+        if self.knows(problem) {
+            self.note(problem, changed);
+        } else {
+            self.field.forget();
+            self.begin(problem);
+        }
+        let start = grid.layout().id(problem.start());
+        if self.still_best(problem, start) {
+            self.route.cut_to(start, problem.start());
+            return Found::Path;
+        }
+        self.look(problem, cx)
+    }
+
+    fn note(&mut self, problem: &GridProblem, changed: &[u32]) {
+        let Some((_, weights)) = self.basis else {
+            return;
+        };
+        self.route.check(problem, changed, weights);
+        let (layout, apart) = (*problem.grid().layout(), weights.apart::<W>(problem.moves()));
+        let to = |cell: Cell| {
+            let (x, y) = layout.position(layout.id(cell));
+            move |(a, b): (u32, u32)| (a.abs_diff(x), b.abs_diff(y))
+        };
+        let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
+        let field = &self.field;
+        self.damage.add(problem, changed, |id| {
+            let at = layout.position(id);
+            let ((gx, gy), (sx, sy)) = (to_goal(at), to_start(at));
+            let heuristic = apart(gx, gy);
+            (heuristic, field.estimate(id, heuristic, apart(sx, sy)).0)
+        });
+    }
+
+    /// From where the field was settled.
+    fn anchor(&self, problem: &GridProblem) -> Cell {
+        self.field.settled().map_or(problem.goal(), |(cell, _)| cell)
+    }
+
+    /// Whether what is left of the route is as good as ever.
+    fn still_best(&self, problem: &GridProblem, start: u32) -> bool {
+        let Some(left) = self.route.left(start, problem.start()) else {
+            return false;
+        };
+        self.bound(problem)(start).0 >= left
+    }
+
+    /// Of an id, a bound from below on what is left, and whether it is what is left and nothing
+    /// that changed matters to it.
+    fn bound<'s>(&'s self, problem: &GridProblem) -> impl Fn(u32) -> (W, bool) + use<'s, W> {
+        let layout = *problem.grid().layout();
+        let weights = self.basis.map_or(Weights::of(problem.grid()), |(_, weights)| weights);
+        let apart = weights.apart::<W>(problem.moves());
+        let (goal_x, goal_y) = layout.position(layout.id(problem.goal()));
+        let (x0, y0) = layout.position(layout.id(self.anchor(problem)));
+        let opened = self.damage.bound(weights, problem.moves());
+        move |id| {
+            let (x, y) = layout.position(id);
+            let to_goal = apart(x.abs_diff(goal_x), y.abs_diff(goal_y));
+            let to_start = apart(x.abs_diff(x0), y.abs_diff(y0));
+            let (least, exact) = self.field.estimate(id, to_goal, to_start);
+            let known = least.max(self.learnt[id as usize]);
+            let open = opened((x, y), to_goal);
+            (
+                known.min(open),
+                exact && least <= open && self.damage.is_below(least),
+            )
+        }
+    }
+
+    /// Searches from the start to where the way on is known.
+    fn look(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
+        let layout = *problem.grid().layout();
+        let goal = layout.id(problem.goal());
+        let mut search = std::mem::take(&mut self.search);
+        let mut closed = std::mem::take(&mut self.closed);
+        let end = if self.knows_more(problem) {
+            let bound = self.bound(problem);
+            let heuristic = |id| Some(bound(id).0).filter(|&least| least < W::MAX);
+            let arrive = |id, _| {
+                closed.push(id);
+                if id == goal {
+                    return Some(W::default());
+                }
+                let known = || Some(bound(id)).filter(|&(_, exact)| exact);
+                let on_route = self.route.left(id, layout.cell(id));
+                on_route.or_else(|| known().map(|(left, _)| left))
+            };
+            search.run_until(problem, problem.start(), heuristic, arrive, cx)
+        } else {
+            let weights = Weights::of(problem.grid());
+            let octile = weights.octile(problem.grid(), problem.moves(), problem.goal());
+            let arrive = |id, _| {
+                closed.push(id);
+                (id == goal).then(W::default)
+            };
+            search.run_until(problem, problem.start(), |id| Some(octile(id)), arrive, cx)
+        };
+        self.closed = closed;
+        self.search = search;
+        match end {
+            End::Cut | End::TooFar => {
+                self.closed.clear();
+                return if end == End::Cut {
+                    Found::Cut
+                } else {
+                    Found::TooFar
+                };
+            }
+            End::Exhausted => {
+                self.whole = W::MAX;
+                return Found::Nothing;
+            }
+            End::Goal(whole) => self.whole = whole,
+        }
+        let at = self.search.reached();
+        let first = self.search.weight(at).unwrap_or_default();
+        let left = self.whole - first;
+        self.go_down(problem, at, left);
+        for (id, g) in self.search.back(at).skip(1) {
+            self.route.extend(id, layout.cell(id), self.whole - g);
+        }
+        Found::Path
+    }
+
+    /// Whether what is known beats the plain heuristic by enough to pay for looking it up.
+    fn knows_more(&self, problem: &GridProblem) -> bool {
+        let known = self.field.settled().is_some() || !self.learners.is_empty();
+        let start = problem.grid().layout().id(problem.start());
+        known && self.damage.leaves(|| {
+            let to_goal = Weights::of(problem.grid()).octile::<W>(
+                problem.grid(),
+                problem.moves(),
+                problem.goal(),
+            )(start);
+            let whole = self.field.settled().map_or(W::MAX, |(_, whole)| whole);
+            let learnt = self.learnt[start as usize];
+            (to_goal, if whole == W::MAX { learnt } else { learnt.max(whole) })
+        })
+    }
+
+    /// Makes the route begin at an id from which so much is left: on from there along the route
+    /// that holds, or down the field until there.
+    fn go_down(&mut self, problem: &GridProblem, from: u32, mut left: W) {
+        let layout = *problem.grid().layout();
+        let goal = layout.id(problem.goal());
+        self.tail.clear();
+        let mut id = from;
+        loop {
+            let cell = layout.cell(id);
+            if self.route.left(id, cell) == Some(left) {
+                self.route.cut_to(id, cell);
+                break;
+            }
+            if id == goal {
+                self.route.restart(id, cell);
+                break;
+            }
+            self.tail.push((id, left));
+            let Some((next, weight)) = self.field.next(problem, id, left) else {
+                // Not to be reached; the judge would see it.
+                self.route.restart(id, cell);
+                break;
+            };
+            id = next;
+            left = left - weight;
+        }
+        while let Some((id, left)) = self.tail.pop() {
+            self.route.extend(id, layout.cell(id), left);
+        }
+    }
+
+    /// Keeps what the last search found out.
+    fn learn(&mut self) {
+        for id in self.closed.drain(..) {
+            let Some(g) = self.search.weight(id) else {
+                continue;
+            };
+            let known = &mut self.learnt[id as usize];
+            let least = if self.whole == W::MAX {
+                W::MAX
+            } else {
+                self.whole.max(g) - g
+            };
+            if *known < least {
+                if *known == W::default() {
+                    self.learners.push(id);
+                }
+                *known = least;
+            }
+        }
+    }
+
+    /// The route, the start first.
+    pub(super) fn path(&self) -> Vec<Cell> {
+        self.route.path()
+    }
+}
