@@ -41,16 +41,18 @@ impl<W: Word> Default for Damage<W> {
 
 impl<W: Word> Damage<W> {
     /// Takes note of changed cells. `before` says of an id what the heuristic says and what was
-    /// left before anything changed, or a bound of it from below.
+    /// left before anything changed, or a bound of it from below. Says whether any of them may have
+    /// made something shorter.
     pub fn add(
         &mut self,
         problem: &GridProblem,
         changed: &[u32],
         before: impl Fn(u32) -> (W, W),
-    ) {
+    ) -> bool {
         let grid = problem.grid();
         let offsets = grid.layout().offsets();
         let uniform = Weights::of(grid).is_uniform();
+        let mut opened = false;
         for &id in changed {
             let (_, left) = before(id);
             self.below = self.below.min(left);
@@ -65,6 +67,7 @@ impl<W: Word> Damage<W> {
             if !grid.is_free_id(id) {
                 continue;
             }
+            opened = true;
             // A freed cell also allows diagonal steps that pass it, between its neighbours.
             for near in around.into_iter().filter(|&near| grid.is_free_id(near)).chain([id]) {
                 let (heuristic, left) = before(near);
@@ -73,6 +76,7 @@ impl<W: Word> Damage<W> {
                 }
             }
         }
+        opened
     }
 
     fn open(&mut self, (x, y): (u32, u32), left: W, excess: W) {

@@ -37,7 +37,8 @@ pub(super) struct Guided<W: Copy> {
     damage: Damage<W>,
     /// What the changes are counted from: a goal and its weights.
     basis: Option<(Cell, Weights)>,
-    /// By id: a bound from below on what is left to the basis' goal.
+    /// By id: a bound from below on what is left to the basis' goal, found out since anything
+    /// last became free or cheaper.
     learnt: Vec<W>,
     /// The ids with such a bound.
     learners: Vec<u32>,
@@ -128,9 +129,7 @@ impl<W: Word> Guided<W> {
             self.learnt.resize(layout.len(), W::default());
             self.learners.clear();
         }
-        for id in self.learners.drain(..) {
-            self.learnt[id as usize] = W::default();
-        }
+        self.unlearn();
         self.closed.clear();
         self.route.clear(layout);
         self.damage = Damage::default();
@@ -194,12 +193,21 @@ impl<W: Word> Guided<W> {
         };
         let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
         let field = &self.field;
-        self.damage.add(problem, changed, |id| {
+        let opened = self.damage.add(problem, changed, |id| {
             let at = layout.position(id);
             let ((gx, gy), (sx, sy)) = (to_goal(at), to_start(at));
             let heuristic = apart(gx, gy);
             (heuristic, field.estimate(id, heuristic, apart(sx, sy)).0)
         });
+        if opened {
+            self.unlearn();
+        }
+    }
+
+    fn unlearn(&mut self) {
+        for id in self.learners.drain(..) {
+            self.learnt[id as usize] = W::default();
+        }
     }
 
     /// From where the field was settled.
@@ -229,10 +237,9 @@ impl<W: Word> Guided<W> {
             let to_goal = apart(x.abs_diff(goal_x), y.abs_diff(goal_y));
             let to_start = apart(x.abs_diff(x0), y.abs_diff(y0));
             let (least, exact) = self.field.estimate(id, to_goal, to_start);
-            let known = least.max(self.learnt[id as usize]);
             let open = opened((x, y), to_goal);
             (
-                known.min(open),
+                least.min(open).max(self.learnt[id as usize]),
                 exact && least <= open && self.damage.is_below(least),
             )
         }
