@@ -84,6 +84,16 @@ fn play(
                 "seed {seed}, story {story}, batch {batch}: {changes:?} led to\n{}",
                 drawing(&problem)
             );
+            let revision = problem.revise(&[]).unwrap();
+            let again = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            assert_eq!(proven(&problem, &again), found);
+            let (first, second) = (report.stats.expanded, again.stats.expanded);
+            assert!(
+                second == 0 || params.eager,
+                "seed {seed}, story {story}, batch {batch}: {second} after {first} for nothing; {:?}\n{}",
+                report.note("replanned"),
+                drawing(&problem)
+            );
         }
     }
     ways

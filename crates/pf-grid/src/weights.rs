@@ -11,6 +11,23 @@ pub struct Weights {
     uniform: bool,
 }
 
+/// What the way between two cells weighs if nothing stands in it and every cell is the cheapest.
+#[derive(Clone, Copy, Debug)]
+pub struct Apart<W> {
+    straight: W,
+    /// What a diagonal step saves against two straight ones.
+    saved: W,
+}
+
+impl<W: Word> Apart<W> {
+    /// For cells so many columns and rows apart.
+    #[inline]
+    #[must_use]
+    pub fn by(self, dx: u32, dy: u32) -> W {
+        self.straight.times(dx) + self.straight.times(dy) - self.saved.times(dx.min(dy))
+    }
+}
+
 impl Weights {
     /// The weights on `grid` as it is now.
     #[must_use]
@@ -62,19 +79,19 @@ impl Weights {
         let apart = self.apart(moves);
         move |id| {
             let (x, y) = layout.position(id);
-            apart(x.abs_diff(goal_x), y.abs_diff(goal_y))
+            apart.by(x.abs_diff(goal_x), y.abs_diff(goal_y))
         }
     }
 
-    /// The same between two cells so many columns and rows apart.
-    pub fn apart<W: Word>(&self, moves: Moves) -> impl Fn(u32, u32) -> W + use<W> {
+    /// The same between two cells.
+    #[must_use]
+    pub fn apart<W: Word>(&self, moves: Moves) -> Apart<W> {
         let straight = W::STRAIGHT.times(self.least);
-        // What a diagonal step saves against two straight ones.
         let saved = match moves {
             Moves::Orthogonal => W::default(),
             _ => straight + straight - W::DIAGONAL.times(self.least),
         };
-        move |dx, dy| straight.times(dx) + straight.times(dy) - saved.times(dx.min(dy))
+        Apart { straight, saved }
     }
 
     /// By how much one step raises the key of a search at most: by its weight, and the heuristic

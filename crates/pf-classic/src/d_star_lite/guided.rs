@@ -73,6 +73,7 @@ impl<W: Word> Guided<W> {
         self.field.bytes()
             + self.search.bytes()
             + self.route.bytes()
+            + self.damage.bytes()
             + self.learnt.capacity() * size_of::<W>()
             + size_of::<u32>() * (self.learners.capacity() + self.closed.capacity())
             + size_of::<(u32, W)>() * self.tail.capacity()
@@ -132,7 +133,7 @@ impl<W: Word> Guided<W> {
         self.unlearn();
         self.closed.clear();
         self.route.clear(layout);
-        self.damage = Damage::default();
+        self.damage.clear();
         self.basis = Some((problem.goal(), Weights::of(problem.grid())));
     }
 
@@ -193,11 +194,11 @@ impl<W: Word> Guided<W> {
         };
         let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
         let field = &self.field;
-        let opened = self.damage.add(problem, changed, |id| {
+        let opened = self.damage.add(problem, changed, weights, |id| {
             let at = layout.position(id);
             let ((gx, gy), (sx, sy)) = (to_goal(at), to_start(at));
-            let heuristic = apart(gx, gy);
-            (heuristic, field.estimate(id, heuristic, apart(sx, sy)).0)
+            let heuristic = apart.by(gx, gy);
+            (heuristic, field.estimate(id, heuristic, apart.by(sx, sy)).0)
         });
         if opened {
             self.unlearn();
@@ -220,28 +221,36 @@ impl<W: Word> Guided<W> {
         let Some(left) = self.route.left(start, problem.start()) else {
             return false;
         };
-        self.bound(problem)(start).0 >= left
+        self.bound(problem)(start, false).0 >= left
     }
 
-    /// Of an id, a bound from below on what is left, and whether it is what is left and nothing
-    /// that changed matters to it.
-    fn bound<'s>(&'s self, problem: &GridProblem) -> impl Fn(u32) -> (W, bool) + use<'s, W> {
+    /// Of an id, a bound from below on what is left, and on request whether that much is left, and
+    /// nothing that changed matters to it.
+    fn bound<'s>(&'s self, problem: &GridProblem) -> impl Fn(u32, bool) -> (W, bool) + use<'s, W> {
         let layout = *problem.grid().layout();
-        let weights = self.basis.map_or(Weights::of(problem.grid()), |(_, weights)| weights);
+        let weights = self
+            .basis
+            .map_or(Weights::of(problem.grid()), |(_, weights)| weights);
         let apart = weights.apart::<W>(problem.moves());
         let (goal_x, goal_y) = layout.position(layout.id(problem.goal()));
         let (x0, y0) = layout.position(layout.id(self.anchor(problem)));
         let opened = self.damage.bound(weights, problem.moves());
-        move |id| {
+        move |id, exactly| {
             let (x, y) = layout.position(id);
-            let to_goal = apart(x.abs_diff(goal_x), y.abs_diff(goal_y));
-            let to_start = apart(x.abs_diff(x0), y.abs_diff(y0));
-            let (least, exact) = self.field.estimate(id, to_goal, to_start);
-            let open = opened((x, y), to_goal);
-            (
-                least.min(open).max(self.learnt[id as usize]),
-                exact && least <= open && self.damage.is_below(least),
-            )
+            let estimate = || {
+                let to_goal = apart.by(x.abs_diff(goal_x), y.abs_diff(goal_y));
+                let to_start = apart.by(x.abs_diff(x0), y.abs_diff(y0));
+                (to_goal, self.field.estimate(id, to_goal, to_start))
+            };
+            let least = opened.at((x, y), || {
+                let (to_goal, (least, _)) = estimate();
+                (to_goal, least)
+            });
+            let exact = exactly && self.damage.is_below(least) && {
+                let (_, (left, exact)) = estimate();
+                exact && left == least
+            };
+            (least.max(self.learnt[id as usize]), exact)
         }
     }
 
@@ -251,27 +260,24 @@ impl<W: Word> Guided<W> {
         let goal = layout.id(problem.goal());
         let mut search = std::mem::take(&mut self.search);
         let mut closed = std::mem::take(&mut self.closed);
+        let weights = Weights::of(problem.grid());
         let end = if self.knows_more(problem) {
             let bound = self.bound(problem);
-            let heuristic = |id| Some(bound(id).0).filter(|&least| least < W::MAX);
+            let heuristic = |id| Some(bound(id, false).0).filter(|&least| least < W::MAX);
             let arrive = |id, _| {
                 closed.push(id);
                 if id == goal {
                     return Some(W::default());
                 }
-                let known = || Some(bound(id)).filter(|&(_, exact)| exact);
+                let known = || Some(bound(id, true)).filter(|&(_, exact)| exact);
                 let on_route = self.route.left(id, layout.cell(id));
                 on_route.or_else(|| known().map(|(left, _)| left))
             };
             search.run_until(problem, problem.start(), heuristic, arrive, cx)
         } else {
-            let weights = Weights::of(problem.grid());
+            // Nothing to learn from, which would cost a tenth: soon distances are made anew.
             let octile = weights.octile(problem.grid(), problem.moves(), problem.goal());
-            let arrive = |id, _| {
-                closed.push(id);
-                (id == goal).then(W::default)
-            };
-            search.run_until(problem, problem.start(), |id| Some(octile(id)), arrive, cx)
+            search.run(problem, problem.start(), Some(problem.goal()), octile, cx)
         };
         self.closed = closed;
         self.search = search;
@@ -302,18 +308,16 @@ impl<W: Word> Guided<W> {
 
     /// Whether what is known beats the plain heuristic by enough to pay for looking it up.
     fn knows_more(&self, problem: &GridProblem) -> bool {
-        let known = self.field.settled().is_some() || !self.learners.is_empty();
-        let start = problem.grid().layout().id(problem.start());
-        known && self.damage.leaves(|| {
-            let to_goal = Weights::of(problem.grid()).octile::<W>(
-                problem.grid(),
-                problem.moves(),
-                problem.goal(),
-            )(start);
-            let whole = self.field.settled().map_or(W::MAX, |(_, whole)| whole);
-            let learnt = self.learnt[start as usize];
-            (to_goal, if whole == W::MAX { learnt } else { learnt.max(whole) })
-        })
+        let grid = problem.grid();
+        let start = grid.layout().id(problem.start());
+        if self.learnt[start as usize] > W::default() {
+            return true;
+        }
+        let Some((_, whole)) = self.field.settled() else {
+            return !self.learners.is_empty();
+        };
+        let octile = Weights::of(grid).octile::<W>(grid, problem.moves(), problem.goal());
+        self.damage.leaves(octile(start), whole)
     }
 
     /// Makes the route begin at an id from which so much is left: on from there along the route

@@ -80,6 +80,8 @@ pub struct DStarLite {
     effort: u64,
     /// Expansions of answers since the field was settled.
     debt: u64,
+    /// The last answer, and to what.
+    last: Option<(Stamp, Found)>,
 }
 
 #[derive(Clone, Debug)]
@@ -146,6 +148,7 @@ impl DStarLite {
     }
 
     fn forget_changes(&mut self) {
+        self.last = None;
         self.pending.clear();
         self.told = 0;
         self.debt = 0;
@@ -337,7 +340,14 @@ impl Replanner<GridProblem> for DStarLite {
             };
             return Ok(self.report(problem, found, cx));
         }
-        let found = self.answer(problem, cx);
+        let found = match self.last {
+            Some((stamp, found)) if stamp == problem.stamp() => {
+                cx.note("replanned", "kept");
+                found
+            }
+            _ => self.answer(problem, cx),
+        };
+        self.last = (found != Found::Cut).then_some((problem.stamp(), found));
         Ok(self.report(problem, found, cx))
     }
 
