@@ -1,7 +1,6 @@
 //! What changed since a distance field was made, and what that does to its distances.
 
 use crate::{Apart, GridProblem, Moves, Weights, Word};
-use std::cell::Cell as Memo;
 
 /// The changes since distances to a goal were known, boiled down to what bounds the distances now.
 ///
@@ -13,27 +12,28 @@ use std::cell::Cell as Memo;
 /// Source: ours. Heuristics that stay admissible as a map changes are those of Koenig and Likhachev,
 /// *Adaptive A\**, 2005.
 #[derive(Clone, Debug)]
-pub struct Damage<W: Copy> {
+pub struct Damage<W> {
     /// Less was left nowhere among the changed cells.
     below: W,
     openings: Option<Openings<W>>,
-    /// Scratch: places and what was left there.
-    seeds: Vec<(u32, u32, W)>,
 }
 
 /// The places near what became free or cheaper, from which old ways go on.
 #[derive(Clone, Debug)]
-struct Openings<W: Copy> {
+struct Openings<W> {
     /// The least that was left at any of them.
     least: W,
     /// The least of what was left above the heuristic.
     excess: W,
     window: Window,
-    /// By place in the window the least of what was left at a place and the way there; empty if
-    /// the window is too large.
-    left: Vec<W>,
-    /// By place the lesser of that and what was left there, once it was asked for.
-    both: Vec<Memo<W>>,
+    /// Whether the window is small enough to be looked at place by place.
+    has_places: bool,
+    /// By place in the window what was left there before.
+    was: Vec<W>,
+    /// The least of what was left at an opening and the way there, as if nothing stood in it.
+    over: Vec<W>,
+    /// The lesser of the two.
+    both: Vec<W>,
 }
 
 /// Columns and rows, first and last.
@@ -44,7 +44,7 @@ struct Window {
 }
 
 /// A window of that many places is looked at place by place however few changed cells there are,
-const FEW_PLACES: usize = 1 << 12;
+const FEW_PLACES: usize = 1 << 10;
 /// and one of that many for each of them.
 const PLACES_EACH: usize = 16;
 /// That many changed cells spread over a larger window are taken to change everything.
@@ -55,7 +55,6 @@ impl<W: Word> Default for Damage<W> {
         Self {
             below: W::MAX,
             openings: None,
-            seeds: Vec::new(),
         }
     }
 }
@@ -67,74 +66,81 @@ impl<W: Word> Damage<W> {
         self.openings = None;
     }
 
-    /// Takes note of changed cells. `before` says of an id what the heuristic says and what was
-    /// left before anything changed, or a bound of it from below. Says whether any of them may have
-    /// made something shorter.
+    /// Takes note of changed cells. `before` says of a place, its column, row and id, what the
+    /// heuristic says and what was left before anything changed, or a bound of it from below. Says
+    /// whether any of them may have made something shorter.
     pub fn add(
         &mut self,
         problem: &GridProblem,
         changed: &[u32],
         weights: Weights,
-        before: impl Fn(u32) -> (W, W),
+        before: impl Fn((u32, u32), u32) -> (W, W),
     ) -> bool {
         let grid = problem.grid();
         let layout = grid.layout();
-        let free = changed.iter().filter(|&&id| grid.is_free_id(id));
         let mut window = None;
-        for &id in free {
+        let mut opened = false;
+        for &id in changed {
             let (x, y) = layout.position(id);
             // Its neighbours, too, within the border.
             Window::hold(&mut window, (x - 1, y - 1));
             Window::hold(&mut window, (x + 1, y + 1));
+            opened |= grid.is_free_id(id);
         }
+        let Some(window) = window.filter(|_| opened) else {
+            for &id in changed {
+                self.hold_below(problem, id, weights, &before);
+            }
+            return false;
+        };
         let most = FEW_PLACES + PLACES_EACH * changed.len();
-        if window.is_some_and(|all| all.places() > most) && changed.len() > MOST_SPREAD {
+        let all = self.openings.get_or_insert_with(|| Openings::nowhere(window));
+        let roomy = all.has_places && all.window.with(window).places() <= most;
+        if roomy {
+            all.look(problem, changed, window, weights.apart(problem.moves()), before);
+            let (opening, below) = (all.window, &mut self.below);
+            for &id in changed {
+                let (x, y) = layout.position(id);
+                for place in neighbours((x, y)).filter(|&at| at == (x, y) || !weights.is_uniform()) {
+                    *below = all.was[opening.place(place)].min(*below);
+                }
+            }
+        } else if changed.len() > MOST_SPREAD {
+            all.give_up(window);
             self.below = W::default();
-            self.openings = window.map(|window| Openings {
-                least: W::default(),
-                excess: W::default(),
-                window,
-                left: Vec::new(),
-                both: Vec::new(),
-            });
-            return true;
+        } else {
+            for &id in changed.iter().filter(|&&id| grid.is_free_id(id)) {
+                for (x, y) in neighbours(layout.position(id)) {
+                    let id = layout.id_at((x, y));
+                    if grid.is_free_id(id) {
+                        let (heuristic, left) = before((x, y), id);
+                        all.open(heuristic, left);
+                    }
+                }
+            }
+            all.forget_places(window);
+            for &id in changed {
+                self.hold_below(problem, id, weights, &before);
+            }
         }
-        let offsets = layout.offsets();
-        let mut seeds = std::mem::take(&mut self.seeds);
-        seeds.clear();
-        for &id in changed {
-            let (_, left) = before(id);
+        true
+    }
+
+    fn hold_below(
+        &mut self,
+        problem: &GridProblem,
+        id: u32,
+        weights: Weights,
+        before: &impl Fn((u32, u32), u32) -> (W, W),
+    ) {
+        let layout = problem.grid().layout();
+        let at = layout.position(id);
+        // A blocked cell also hinders diagonal steps that pass it. Without terrain less was left at
+        // such a cell than where the step begins, with terrain it may be dear.
+        for place in neighbours(at).filter(|&near| near == at || !weights.is_uniform()) {
+            let (_, left) = before(place, layout.id_at(place));
             self.below = self.below.min(left);
-            let around = offsets.map(|offset| id.wrapping_add_signed(offset));
-            if !weights.is_uniform() {
-                // A blocked cell also hinders diagonal steps that pass it. Without terrain less was
-                // left at such a cell than where the step begins, with terrain it may be dear.
-                for near in around {
-                    self.below = self.below.min(before(near).1);
-                }
-            }
-            if !grid.is_free_id(id) {
-                continue;
-            }
-            // A freed cell also allows diagonal steps that pass it, between its neighbours.
-            let free = around.into_iter().filter(|&near| grid.is_free_id(near));
-            for near in free.chain([id]) {
-                let (heuristic, left) = before(near);
-                if left != W::MAX {
-                    let (x, y) = layout.position(near);
-                    seeds.push((x, y, left));
-                    let excess = left.max(heuristic) - heuristic;
-                    let all = self.openings.get_or_insert_with(|| Openings::at((x, y), left));
-                    all.least = all.least.min(left);
-                    all.excess = all.excess.min(excess);
-                }
-            }
         }
-        if let (Some(all), Some(window)) = (&mut self.openings, window) {
-            all.widen(window, most, &seeds, weights.apart(problem.moves()));
-        }
-        self.seeds = seeds;
-        window.is_some()
     }
 
     /// Whether nothing changed for a cell from which `left` was left.
@@ -158,21 +164,23 @@ impl<W: Word> Damage<W> {
     #[must_use]
     pub fn leaves(&self, heuristic: W, known: W) -> bool {
         self.openings.as_ref().is_none_or(|all| {
-            !all.left.is_empty() || all.excess + all.excess >= known.max(heuristic) - heuristic
+            all.has_places
+                || all.least == W::MAX
+                || all.excess + all.excess >= known.max(heuristic) - heuristic
         })
     }
 
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let window = self.openings.as_ref().map_or(0, |all| all.left.capacity());
-        window * size_of::<W>() + self.seeds.capacity() * size_of::<(u32, u32, W)>()
+        let places = |all: &Openings<W>| all.was.capacity() + all.over.capacity() + all.both.capacity();
+        self.openings.as_ref().map_or(0, places) * size_of::<W>()
     }
 }
 
 /// See [`Damage::bound`].
 #[derive(Clone, Copy, Debug)]
-pub struct Bound<'d, W: Copy> {
+pub struct Bound<'d, W> {
     openings: Option<&'d Openings<W>>,
     apart: Apart<W>,
 }
@@ -187,67 +195,100 @@ impl<W: Word> Bound<'_, W> {
         };
         let out = |at: u32, [from, to]: [u32; 2]| from.max(at) - at + (at.max(to) - to);
         let (dx, dy) = (out(x, all.window.columns), out(y, all.window.rows));
-        if dx > 0 || dy > 0 || all.left.is_empty() {
-            let (heuristic, left) = before();
-            return left.min((self.apart.by(dx, dy) + all.least).max(heuristic + all.excess));
+        if dx == 0 && dy == 0 && all.has_places {
+            return all.both[all.window.place((x, y))];
         }
-        let place = all.window.place((x, y));
-        let known = all.both[place].get();
-        if known < W::MAX {
-            return known;
+        let (heuristic, left) = before();
+        if all.least == W::MAX {
+            return left;
         }
-        let both = all.left[place].min(before().1);
-        all.both[place].set(both);
-        both
+        left.min((self.apart.by(dx, dy) + all.least).max(heuristic + all.excess))
     }
 }
 
 impl<W: Word> Openings<W> {
-    fn at((x, y): (u32, u32), left: W) -> Self {
+    /// None yet.
+    fn nowhere(window: Window) -> Self {
         Self {
-            least: left,
-            excess: left,
-            window: Window {
-                columns: [x, x],
-                rows: [y, y],
-            },
-            left: vec![left],
-            both: vec![Memo::new(W::MAX)],
+            least: W::MAX,
+            excess: W::MAX,
+            window,
+            has_places: true,
+            was: Vec::new(),
+            over: Vec::new(),
+            both: Vec::new(),
         }
     }
 
-    /// Takes in a window and what was left at places in it.
-    fn widen(
+    fn open(&mut self, heuristic: W, left: W) {
+        if left < W::MAX {
+            self.least = self.least.min(left);
+            self.excess = self.excess.min(left.max(heuristic) - heuristic);
+        }
+    }
+
+    /// Everything may have changed.
+    fn give_up(&mut self, window: Window) {
+        self.least = W::default();
+        self.excess = W::default();
+        self.forget_places(window);
+    }
+
+    fn forget_places(&mut self, window: Window) {
+        self.window = self.window.with(window);
+        self.has_places = false;
+        self.was.clear();
+        self.over.clear();
+        self.both.clear();
+    }
+
+    /// Looks at a window with these changes in it, place by place, row by row as it lies in memory.
+    fn look(
         &mut self,
-        more: Window,
-        most: usize,
-        seeds: &[(u32, u32, W)],
+        problem: &GridProblem,
+        changed: &[u32],
+        window: Window,
         apart: Apart<W>,
+        before: impl Fn((u32, u32), u32) -> (W, W),
     ) {
-        let old = self.window;
-        let mut all = Some(old);
-        Window::hold(&mut all, (more.columns[0], more.rows[0]));
-        Window::hold(&mut all, (more.columns[1], more.rows[1]));
-        self.window = all.unwrap_or(old);
-        if self.left.is_empty() || self.window.places() > most {
-            self.left.clear();
-            self.both.clear();
-            return;
+        let grid = problem.grid();
+        let layout = grid.layout();
+        let (old, all) = (self.window, self.window.with(window));
+        let known = std::mem::take(&mut self.over);
+        self.over.resize(all.places(), Self::far());
+        if !known.is_empty() {
+            for (y, row) in (old.rows[0]..).zip(known.chunks_exact(old.width())) {
+                let at = all.place((old.columns[0], y));
+                self.over[at..at + old.width()].copy_from_slice(row);
+            }
         }
-        let known = std::mem::take(&mut self.left);
-        self.left.resize(self.window.places(), Self::far());
-        for y in old.rows[0]..=old.rows[1] {
-            let (from, to) = (old.place((old.columns[0], y)), old.place((old.columns[1], y)));
-            let at = self.window.place((old.columns[0], y));
-            self.left[at..=at + to - from].copy_from_slice(&known[from..=to]);
+        self.window = all;
+        self.was.clear();
+        let mut heuristics = std::mem::take(&mut self.both);
+        heuristics.clear();
+        for y in all.rows[0]..=all.rows[1] {
+            let first = layout.id_at((all.columns[0], y));
+            for (id, x) in (first..).zip(all.columns[0]..=all.columns[1]) {
+                let (heuristic, left) = before((x, y), id);
+                heuristics.push(heuristic);
+                self.was.push(left);
+            }
         }
-        for &(x, y, left) in seeds {
-            let place = &mut self.left[self.window.place((x, y))];
-            *place = left.min(*place);
+        for &id in changed.iter().filter(|&&id| grid.is_free_id(id)) {
+            // A freed cell also allows diagonal steps that pass it, between its neighbours.
+            for (x, y) in neighbours(layout.position(id)) {
+                let place = all.place((x, y));
+                let left = self.was[place];
+                if left < self.over[place] && grid.is_free_id(layout.id_at((x, y))) {
+                    self.over[place] = left;
+                    self.open(heuristics[place], left);
+                }
+            }
         }
         self.spread(apart.by(1, 0), apart.by(1, 1));
-        self.both.clear();
-        self.both.resize(self.left.len(), Memo::new(W::MAX));
+        heuristics.clear();
+        heuristics.extend(self.was.iter().zip(&self.over).map(|(&was, &over)| was.min(over)));
+        self.both = heuristics;
     }
 
     /// More than any path weighs, and yet far enough from overflow.
@@ -264,16 +305,16 @@ impl<W: Word> Openings<W> {
         for pass in 0..2 {
             // The second pass is the first one in a window turned half round.
             let mut above: Vec<W> = vec![far; width + 2];
-            let rows = self.left.chunks_exact_mut(width);
+            let rows = self.over.chunks_exact_mut(width);
             let mut lower = |row: &mut [W]| {
+                for (value, near) in row.iter_mut().zip(above.windows(3)) {
+                    let over = (near[1] + straight).min(near[0].min(near[2]) + diagonal);
+                    *value = over.min(*value);
+                }
                 let mut last = far;
-                for k in 0..width {
-                    let value = row[k]
-                        .min(last + straight)
-                        .min(above[k + 1] + straight)
-                        .min(above[k].min(above[k + 2]) + diagonal);
-                    row[k] = value;
-                    last = value;
+                for value in row.iter_mut() {
+                    last = (*value).min(last + straight);
+                    *value = last;
                 }
                 above[1..=width].copy_from_slice(row);
             };
@@ -300,8 +341,21 @@ impl Window {
         all.rows = [all.rows[0].min(y), all.rows[1].max(y)];
     }
 
+    fn with(self, other: Self) -> Self {
+        let mut all = Some(self);
+        Self::hold(&mut all, (other.columns[0], other.rows[0]));
+        Self::hold(&mut all, (other.columns[1], other.rows[1]));
+        all.unwrap_or(self)
+    }
+
     fn width(self) -> usize {
         (self.columns[1] - self.columns[0]) as usize + 1
+    }
+
+    #[cfg(test)]
+    fn has(self, (x, y): (u32, u32)) -> bool {
+        (self.columns[0]..=self.columns[1]).contains(&x)
+            && (self.rows[0]..=self.rows[1]).contains(&y)
     }
 
     fn places(self) -> usize {
@@ -313,27 +367,51 @@ impl Window {
     }
 }
 
+/// A place within the border, and the eight around it.
+fn neighbours((x, y): (u32, u32)) -> impl Iterator<Item = (u32, u32)> {
+    (y - 1..=y + 1).flat_map(move |y| (x - 1..=x + 1).map(move |x| (x, y)))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{Cell, Grid, GridChange};
+    use pf_core::Problem;
 
+    /// A window that grows holds at every place the least over all openings, as a plain reading of
+    /// the definition has it.
     #[test]
     fn two_passes_reach_every_place_by_the_shortest_way() {
-        let apart = Weights::of(&crate::Grid::open(2, 2).unwrap()).apart::<u32>(Moves::Always);
-        let seeds = [(3, 4, 50_000), (9, 2, 0), (12, 11, 90_000), (5, 5, 10_000)];
-        let mut all = Openings::at((3, 4), 50_000);
-        let more = Window {
-            columns: [2, 14],
-            rows: [1, 12],
-        };
-        // In two steps, as it grows.
-        all.widen(more, 1000, &seeds[..2], apart);
-        all.widen(Window { columns: [0, 3], ..more }, 1000, &seeds[2..], apart);
-        for x in 0..=14u32 {
-            for y in 1..=12u32 {
-                let least = seeds.iter().map(|&(a, b, left)| left + apart.by(x.abs_diff(a), y.abs_diff(b)));
-                assert_eq!(all.left[all.window.place((x, y))], least.min().unwrap(), "{x}, {y}");
+        let grid = Grid::new(20, 20, |cell| u8::from((cell.x * 7 + cell.y * 11) % 5 > 1)).unwrap();
+        let (start, goal) = (Cell::new(0, 0), Cell::new(19, 19));
+        let mut problem = GridProblem::new(grid, start, goal).unwrap();
+        let weights = Weights::of(problem.grid());
+        let apart = weights.apart::<u32>(problem.moves());
+        let was = |(x, y): (u32, u32), _: u32| (0, 10_000 * ((x * 13 + y * 29) % 31));
+        let mut damage = Damage::default();
+        let mut seeds = Vec::new();
+        for freed in [vec![Cell::new(4, 5), Cell::new(11, 7)], vec![Cell::new(2, 12)]] {
+            problem.apply(&[GridChange::Freed(freed.clone())]).unwrap();
+            let layout = *problem.grid().layout();
+            let ids: Vec<u32> = freed.iter().map(|&cell| layout.id(cell)).collect();
+            assert!(damage.add(&problem, &ids, weights, was));
+            let near = ids.iter().flat_map(|&id| neighbours(layout.position(id)));
+            seeds.extend(near.filter(|&at| problem.grid().is_free_id(layout.id_at(at))));
+        }
+        let bound = damage.bound(weights, problem.moves());
+        let mut inside = 0;
+        for at @ (x, y) in (1..=20).flat_map(|x| (1..=20u32).map(move |y| (x, y))) {
+            let (x, y): (u32, u32) = (x, y);
+            let over = |&(a, b): &(u32, u32)| was((a, b), 0).1 + apart.by(x.abs_diff(a), y.abs_diff(b));
+            let least = seeds.iter().map(over).min().unwrap();
+            let found = bound.at(at, || (0, u32::MAX));
+            if damage.openings.as_ref().unwrap().window.has(at) {
+                inside += 1;
+                assert_eq!(found, least.min(was(at, 0).1), "{at:?}");
+            } else {
+                assert!(found <= least, "{at:?}");
             }
         }
+        assert!(inside > 100 && inside < 400);
     }
 }

@@ -72,6 +72,13 @@ impl Layout {
         (id - row * self.pitch, row)
     }
 
+    /// The id that lies in a column and a row, as [`position`](Self::position) counts them.
+    #[inline]
+    #[must_use]
+    pub fn id_at(&self, (column, row): (u32, u32)) -> u32 {
+        row * self.pitch + column
+    }
+
     /// The cell with this id.
     #[inline]
     #[must_use]

@@ -50,6 +50,12 @@ impl<W: Word> Route<W> {
         (place < self.sound).then(|| self.left[place])
     }
 
+    /// The most that is left anywhere on the part of the route that holds.
+    #[must_use]
+    pub fn most(&self) -> Option<W> {
+        self.sound.checked_sub(1).map(|last| self.left[last])
+    }
+
     /// Takes note of changed cells: what they break no longer holds.
     pub fn check(&mut self, problem: &GridProblem, changed: &[u32], weights: Weights) {
         if self.sound <= 1 {

@@ -284,6 +284,13 @@ impl<W: Word> Search<W> {
             .min_by_key(|cell| square(cell.x, to.x) + square(cell.y, to.y))
     }
 
+    /// How many ids the grid of the last search has.
+    #[must_use]
+    #[expect(clippy::len_without_is_empty, reason = "a layout is never empty")]
+    pub fn len(&self) -> usize {
+        self.records.len()
+    }
+
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {

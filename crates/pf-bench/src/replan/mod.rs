@@ -166,15 +166,18 @@ fn bench(args: &Args, case: &Case, moves: Moves, class: Class) -> Result<Vec<Row
             pf_grid::GridChange::StartMoved(row.start),
             pf_grid::GridChange::GoalMoved(row.goal),
         ])?;
-        let mut path = None;
-        for (one, _) in ours.iter_mut().rev() {
+        // Who plans last finds the map in the caches: each of them in turn.
+        let (mut path, all) = (None, ours.len());
+        let first = ours[0].1.latency.queries();
+        for k in (0..all).map(|k| (first + k) % all) {
+            let (one, _) = &mut ours[k];
             let report = one
                 .planner
                 .plan(&problem, &mut Context::seeded(args.seed))?;
             one.planner
                 .settle(&problem, &mut Context::seeded(args.seed));
             // That of the first planner asked for, or A*'s if there is none.
-            if one.name != FRESH || path.is_none() {
+            if k == 1 || all == 1 {
                 path = report.outcome.solved().map(|best| best.solution.clone());
             }
         }

@@ -126,8 +126,8 @@ impl<W: Word> Guided<W> {
     fn begin(&mut self, problem: &GridProblem) {
         let layout = problem.grid().layout();
         if self.learnt.len() != layout.len() {
-            self.learnt.clear();
-            self.learnt.resize(layout.len(), W::default());
+            // Only a planner that is asked again needs it.
+            self.learnt = Vec::new();
             self.learners.clear();
         }
         self.unlearn();
@@ -194,8 +194,7 @@ impl<W: Word> Guided<W> {
         };
         let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
         let field = &self.field;
-        let opened = self.damage.add(problem, changed, weights, |id| {
-            let at = layout.position(id);
+        let opened = self.damage.add(problem, changed, weights, |at, id| {
             let ((gx, gy), (sx, sy)) = (to_goal(at), to_start(at));
             let heuristic = apart.by(gx, gy);
             (heuristic, field.estimate(id, heuristic, apart.by(sx, sy)).0)
@@ -235,6 +234,7 @@ impl<W: Word> Guided<W> {
         let (goal_x, goal_y) = layout.position(layout.id(problem.goal()));
         let (x0, y0) = layout.position(layout.id(self.anchor(problem)));
         let opened = self.damage.bound(weights, problem.moves());
+        let learnt = (!self.learners.is_empty()).then_some(&self.learnt[..]);
         move |id, exactly| {
             let (x, y) = layout.position(id);
             let estimate = || {
@@ -250,7 +250,7 @@ impl<W: Word> Guided<W> {
                 let (_, (left, exact)) = estimate();
                 exact && left == least
             };
-            (least.max(self.learnt[id as usize]), exact)
+            (learnt.map_or(least, |learnt| least.max(learnt[id as usize])), exact)
         }
     }
 
@@ -264,14 +264,18 @@ impl<W: Word> Guided<W> {
         let end = if self.knows_more(problem) {
             let bound = self.bound(problem);
             let heuristic = |id| Some(bound(id, false).0).filter(|&least| least < W::MAX);
+            let most = self.route.most().unwrap_or_default();
             let arrive = |id, _| {
                 closed.push(id);
                 if id == goal {
                     return Some(W::default());
                 }
-                let known = || Some(bound(id, true)).filter(|&(_, exact)| exact);
-                let on_route = self.route.left(id, layout.cell(id));
-                on_route.or_else(|| known().map(|(left, _)| left))
+                let (least, exact) = bound(id, true);
+                if exact {
+                    return Some(least);
+                }
+                // The route would have to take its time for places that are further than all of it.
+                (least <= most).then(|| self.route.left(id, layout.cell(id))).flatten()
             };
             search.run_until(problem, problem.start(), heuristic, arrive, cx)
         } else {
@@ -310,7 +314,8 @@ impl<W: Word> Guided<W> {
     fn knows_more(&self, problem: &GridProblem) -> bool {
         let grid = problem.grid();
         let start = grid.layout().id(problem.start());
-        if self.learnt[start as usize] > W::default() {
+        let learnt = self.learnt.get(start as usize);
+        if learnt.is_some_and(|&learnt| learnt > W::default()) {
             return true;
         }
         let Some((_, whole)) = self.field.settled() else {
@@ -353,6 +358,9 @@ impl<W: Word> Guided<W> {
 
     /// Keeps what the last search found out.
     fn learn(&mut self) {
+        if !self.closed.is_empty() && self.learnt.is_empty() {
+            self.learnt.resize(self.search.len(), W::default());
+        }
         for id in self.closed.drain(..) {
             let Some(g) = self.search.weight(id) else {
                 continue;
