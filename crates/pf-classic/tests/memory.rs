@@ -40,12 +40,13 @@ fn bytes_per_cell(planner: &mut dyn Planner<GridProblem>, problem: &GridProblem)
 }
 
 #[test]
-fn searches_take_less_than_16_bytes_a_cell_and_d_star_lite_less_than_24() {
-    for problem in [open(), serpentine()] {
+fn searches_take_less_than_14_bytes_a_cell_and_d_star_lite_less_than_18_and_36() {
+    // The serpentine's path is half its cells long, and needs 64 bits.
+    for (problem, dstar) in [(open(), 18.0), (serpentine(), 36.0)] {
         // The grid itself takes nine bits a cell, and is not counted.
         assert!(bytes_per_cell(&mut AStar::default(), &problem) < 14.0);
         assert!(bytes_per_cell(&mut Dijkstra::default(), &problem) < 14.0);
-        assert!(bytes_per_cell(&mut DStarLite::default(), &problem) < 22.0);
+        assert!(bytes_per_cell(&mut DStarLite::default(), &problem) < dstar);
     }
 }
 

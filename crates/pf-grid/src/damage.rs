@@ -15,7 +15,7 @@ use crate::{Apart, GridProblem, Moves, Weights, Word};
 pub struct Damage<W> {
     /// Less was left nowhere among the changed cells.
     below: W,
-    openings: Option<Openings<W>>,
+    openings: Openings<W>,
 }
 
 /// The places near what became free or cheaper, from which old ways go on.
@@ -34,10 +34,13 @@ struct Openings<W> {
     over: Vec<W>,
     /// The lesser of the two.
     both: Vec<W>,
+    /// Scratch: a row, and a window.
+    above: Vec<W>,
+    spare: Vec<W>,
 }
 
 /// Columns and rows, first and last.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default)]
 struct Window {
     columns: [u32; 2],
     rows: [u32; 2],
@@ -54,7 +57,23 @@ impl<W: Word> Default for Damage<W> {
     fn default() -> Self {
         Self {
             below: W::MAX,
-            openings: None,
+            openings: Openings::default(),
+        }
+    }
+}
+
+impl<W: Word> Default for Openings<W> {
+    fn default() -> Self {
+        Self {
+            least: W::MAX,
+            excess: W::MAX,
+            window: Window::default(),
+            has_places: false,
+            was: Vec::new(),
+            over: Vec::new(),
+            both: Vec::new(),
+            above: Vec::new(),
+            spare: Vec::new(),
         }
     }
 }
@@ -63,7 +82,7 @@ impl<W: Word> Damage<W> {
     /// No damage.
     pub fn clear(&mut self) {
         self.below = W::MAX;
-        self.openings = None;
+        self.openings.clear();
     }
 
     /// Takes note of changed cells. `before` says of a place, its column, row and id, what the
@@ -94,8 +113,13 @@ impl<W: Word> Damage<W> {
             return false;
         };
         let most = FEW_PLACES + PLACES_EACH * changed.len();
-        let all = self.openings.get_or_insert_with(|| Openings::nowhere(window));
-        let roomy = all.has_places && all.window.with(window).places() <= most;
+        let all = &mut self.openings;
+        let room = if all.is_empty() {
+            window.places()
+        } else {
+            all.window.with(window).places()
+        };
+        let roomy = (all.is_empty() || all.has_places) && room <= most;
         if roomy {
             all.look(problem, changed, window, weights.apart(problem.moves()), before);
             let (opening, below) = (all.window, &mut self.below);
@@ -109,6 +133,7 @@ impl<W: Word> Damage<W> {
             all.give_up(window);
             self.below = W::default();
         } else {
+            all.forget_places(window);
             for &id in changed.iter().filter(|&&id| grid.is_free_id(id)) {
                 for (x, y) in neighbours(layout.position(id)) {
                     let id = layout.id_at((x, y));
@@ -118,7 +143,6 @@ impl<W: Word> Damage<W> {
                     }
                 }
             }
-            all.forget_places(window);
             for &id in changed {
                 self.hold_below(problem, id, weights, &before);
             }
@@ -154,7 +178,7 @@ impl<W: Word> Damage<W> {
     #[must_use]
     pub fn bound(&self, weights: Weights, moves: Moves) -> Bound<'_, W> {
         Bound {
-            openings: self.openings.as_ref(),
+            openings: &self.openings,
             apart: weights.apart(moves),
         }
     }
@@ -163,25 +187,25 @@ impl<W: Word> Damage<W> {
     /// free or cheaper: there the heuristic said `heuristic`, and `known` was known.
     #[must_use]
     pub fn leaves(&self, heuristic: W, known: W) -> bool {
-        self.openings.as_ref().is_none_or(|all| {
-            all.has_places
-                || all.least == W::MAX
-                || all.excess + all.excess >= known.max(heuristic) - heuristic
-        })
+        let all = &self.openings;
+        all.is_empty()
+            || all.has_places
+            || all.excess + all.excess >= known.max(heuristic) - heuristic
     }
 
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let places = |all: &Openings<W>| all.was.capacity() + all.over.capacity() + all.both.capacity();
-        self.openings.as_ref().map_or(0, places) * size_of::<W>()
+        let all = &self.openings;
+        let places = [&all.was, &all.over, &all.both, &all.above, &all.spare];
+        places.into_iter().map(Vec::capacity).sum::<usize>() * size_of::<W>()
     }
 }
 
 /// See [`Damage::bound`].
 #[derive(Clone, Copy, Debug)]
 pub struct Bound<'d, W> {
-    openings: Option<&'d Openings<W>>,
+    openings: &'d Openings<W>,
     apart: Apart<W>,
 }
 
@@ -190,34 +214,32 @@ impl<W: Word> Bound<'_, W> {
     /// heuristic says there and what was left before, as in [`Damage::add`].
     #[inline]
     pub fn at(&self, (x, y): (u32, u32), before: impl FnOnce() -> (W, W)) -> W {
-        let Some(all) = self.openings else {
+        let all = self.openings;
+        if all.is_empty() {
             return before().1;
-        };
+        }
         let out = |at: u32, [from, to]: [u32; 2]| from.max(at) - at + (at.max(to) - to);
         let (dx, dy) = (out(x, all.window.columns), out(y, all.window.rows));
         if dx == 0 && dy == 0 && all.has_places {
             return all.both[all.window.place((x, y))];
         }
         let (heuristic, left) = before();
-        if all.least == W::MAX {
-            return left;
-        }
         left.min((self.apart.by(dx, dy) + all.least).max(heuristic + all.excess))
     }
 }
 
 impl<W: Word> Openings<W> {
-    /// None yet.
-    fn nowhere(window: Window) -> Self {
-        Self {
-            least: W::MAX,
-            excess: W::MAX,
-            window,
-            has_places: true,
-            was: Vec::new(),
-            over: Vec::new(),
-            both: Vec::new(),
-        }
+    fn clear(&mut self) {
+        self.least = W::MAX;
+        self.excess = W::MAX;
+        self.has_places = false;
+        self.over.clear();
+    }
+
+    /// Whether there are none.
+    #[inline]
+    fn is_empty(&self) -> bool {
+        self.least == W::MAX
     }
 
     fn open(&mut self, heuristic: W, left: W) {
@@ -229,17 +251,19 @@ impl<W: Word> Openings<W> {
 
     /// Everything may have changed.
     fn give_up(&mut self, window: Window) {
+        self.forget_places(window);
         self.least = W::default();
         self.excess = W::default();
-        self.forget_places(window);
     }
 
     fn forget_places(&mut self, window: Window) {
-        self.window = self.window.with(window);
+        // Where the old window was no longer matters if there was none.
+        self.window = if self.has_places || !self.is_empty() {
+            self.window.with(window)
+        } else {
+            window
+        };
         self.has_places = false;
-        self.was.clear();
-        self.over.clear();
-        self.both.clear();
     }
 
     /// Looks at a window with these changes in it, place by place, row by row as it lies in memory.
@@ -253,16 +277,19 @@ impl<W: Word> Openings<W> {
     ) {
         let grid = problem.grid();
         let layout = grid.layout();
-        let (old, all) = (self.window, self.window.with(window));
-        let known = std::mem::take(&mut self.over);
+        let old = self.has_places.then_some(self.window);
+        let all = old.map_or(window, |old| old.with(window));
+        std::mem::swap(&mut self.over, &mut self.spare);
+        self.over.clear();
         self.over.resize(all.places(), Self::far());
-        if !known.is_empty() {
-            for (y, row) in (old.rows[0]..).zip(known.chunks_exact(old.width())) {
+        if let Some(old) = old {
+            for (y, row) in (old.rows[0]..).zip(self.spare.chunks_exact(old.width())) {
                 let at = all.place((old.columns[0], y));
                 self.over[at..at + old.width()].copy_from_slice(row);
             }
         }
         self.window = all;
+        self.has_places = true;
         self.was.clear();
         let mut heuristics = std::mem::take(&mut self.both);
         heuristics.clear();
@@ -304,7 +331,9 @@ impl<W: Word> Openings<W> {
         let far = Self::far();
         for pass in 0..2 {
             // The second pass is the first one in a window turned half round.
-            let mut above: Vec<W> = vec![far; width + 2];
+            let above = &mut self.above;
+            above.clear();
+            above.resize(width + 2, far);
             let rows = self.over.chunks_exact_mut(width);
             let mut lower = |row: &mut [W]| {
                 for (value, near) in row.iter_mut().zip(above.windows(3)) {
@@ -405,7 +434,7 @@ mod tests {
             let over = |&(a, b): &(u32, u32)| was((a, b), 0).1 + apart.by(x.abs_diff(a), y.abs_diff(b));
             let least = seeds.iter().map(over).min().unwrap();
             let found = bound.at(at, || (0, u32::MAX));
-            if damage.openings.as_ref().unwrap().window.has(at) {
+            if damage.openings.window.has(at) {
                 inside += 1;
                 assert_eq!(found, least.min(was(at, 0).1), "{at:?}");
             } else {

@@ -66,6 +66,16 @@ impl Weights {
         length.times(u32::from(grid.cost_id(from)) + u32::from(grid.cost_id(to)))
     }
 
+    /// What the step between neighbouring ids weighs.
+    #[inline]
+    #[must_use]
+    pub fn between<W: Word>(&self, grid: &Grid, from: u32, to: u32) -> W {
+        let layout = grid.layout();
+        let is_straight = |offset: i32| from.wrapping_add_signed(offset) == to;
+        let k = layout.offsets()[..4].iter().any(|&offset| is_straight(offset));
+        self.step(grid, from, to, if k { 0 } else { 4 })
+    }
+
     /// The heuristic of A*: from an id, the weight of the shortest way to `goal` if nothing stood
     /// in it and every cell were the cheapest. It is consistent for every move rule.
     pub fn octile<W: Word>(

@@ -47,7 +47,7 @@ pub(super) struct Guided<W: Copy> {
     /// The weight of what it found; [`Word::MAX`] if nothing.
     whole: W,
     /// Ids on the way down the field.
-    tail: Vec<(u32, W)>,
+    tail: Vec<u32>,
 }
 
 impl<W: Word> Default for Guided<W> {
@@ -75,8 +75,8 @@ impl<W: Word> Guided<W> {
             + self.route.bytes()
             + self.damage.bytes()
             + self.learnt.capacity() * size_of::<W>()
-            + size_of::<u32>() * (self.learners.capacity() + self.closed.capacity())
-            + size_of::<(u32, W)>() * self.tail.capacity()
+            + size_of::<u32>()
+                * (self.learners.capacity() + self.closed.capacity() + self.tail.capacity())
     }
 
     /// Makes the field anew and takes the answer from it.
@@ -342,7 +342,7 @@ impl<W: Word> Guided<W> {
                 self.route.restart(id, cell);
                 break;
             }
-            self.tail.push((id, left));
+            self.tail.push(id);
             let Some((next, weight)) = self.field.next(problem, id, left) else {
                 // Not to be reached; the judge would see it.
                 self.route.restart(id, cell);
@@ -351,8 +351,12 @@ impl<W: Word> Guided<W> {
             id = next;
             left = left - weight;
         }
-        while let Some((id, left)) = self.tail.pop() {
-            self.route.extend(id, layout.cell(id), left);
+        let weights = self.basis.map_or(Weights::of(problem.grid()), |(_, weights)| weights);
+        while let Some(before) = self.tail.pop() {
+            let weight = weights.between::<W>(problem.grid(), before, id);
+            left = left + weight;
+            self.route.extend(before, layout.cell(before), left);
+            id = before;
         }
     }
 
