@@ -49,12 +49,7 @@ fn searches_are_exact_on_made_up_maps() {
 
 /// Plays `stories` random stories of `batches` batches each and returns how often the planner
 /// answered in which way. In every other story the goal stays.
-fn play(
-    seed: u64,
-    stories: u32,
-    batches: u32,
-    params: &DStarLiteParams,
-) -> BTreeMap<String, u32> {
+fn play(seed: u64, stories: u32, batches: u32, params: &DStarLiteParams) -> BTreeMap<String, u32> {
     let mut rng = seeded(seed);
     let mut ways = BTreeMap::new();
     for story in 0..stories {
@@ -109,7 +104,10 @@ fn often(ways: &BTreeMap<String, u32>, least: &[(&str, u32)]) {
 #[test]
 fn d_star_lite_is_exact_after_thirty_thousand_batches() {
     let ways = play(30, 300, 100, &DStarLiteParams::default());
-    often(&ways, &[("kept", 2000), ("searched", 4000), ("afresh", 2000)]);
+    often(
+        &ways,
+        &[("kept", 2000), ("searched", 4000), ("afresh", 2000)],
+    );
 }
 
 #[test]

@@ -121,11 +121,18 @@ impl<W: Word> Damage<W> {
         };
         let roomy = (all.is_empty() || all.has_places) && room <= most;
         if roomy {
-            all.look(problem, changed, window, weights.apart(problem.moves()), before);
+            all.look(
+                problem,
+                changed,
+                window,
+                weights.apart(problem.moves()),
+                before,
+            );
             let (opening, below) = (all.window, &mut self.below);
             for &id in changed {
                 let (x, y) = layout.position(id);
-                for place in neighbours((x, y)).filter(|&at| at == (x, y) || !weights.is_uniform()) {
+                for place in neighbours((x, y)).filter(|&at| at == (x, y) || !weights.is_uniform())
+                {
                     *below = all.was[opening.place(place)].min(*below);
                 }
             }
@@ -314,7 +321,12 @@ impl<W: Word> Openings<W> {
         }
         self.spread(apart.by(1, 0), apart.by(1, 1));
         heuristics.clear();
-        heuristics.extend(self.was.iter().zip(&self.over).map(|(&was, &over)| was.min(over)));
+        heuristics.extend(
+            self.was
+                .iter()
+                .zip(&self.over)
+                .map(|(&was, &over)| was.min(over)),
+        );
         self.both = heuristics;
     }
 
@@ -419,7 +431,10 @@ mod tests {
         let was = |(x, y): (u32, u32), _: u32| (0, 10_000 * ((x * 13 + y * 29) % 31));
         let mut damage = Damage::default();
         let mut seeds = Vec::new();
-        for freed in [vec![Cell::new(4, 5), Cell::new(11, 7)], vec![Cell::new(2, 12)]] {
+        for freed in [
+            vec![Cell::new(4, 5), Cell::new(11, 7)],
+            vec![Cell::new(2, 12)],
+        ] {
             problem.apply(&[GridChange::Freed(freed.clone())]).unwrap();
             let layout = *problem.grid().layout();
             let ids: Vec<u32> = freed.iter().map(|&cell| layout.id(cell)).collect();
@@ -431,7 +446,8 @@ mod tests {
         let mut inside = 0;
         for at @ (x, y) in (1..=20).flat_map(|x| (1..=20u32).map(move |y| (x, y))) {
             let (x, y): (u32, u32) = (x, y);
-            let over = |&(a, b): &(u32, u32)| was((a, b), 0).1 + apart.by(x.abs_diff(a), y.abs_diff(b));
+            let over =
+                |&(a, b): &(u32, u32)| was((a, b), 0).1 + apart.by(x.abs_diff(a), y.abs_diff(b));
             let least = seeds.iter().map(over).min().unwrap();
             let found = bound.at(at, || (0, u32::MAX));
             if damage.openings.window.has(at) {

@@ -83,6 +83,7 @@ impl<W: Word> Default for DistanceField<W> {
 
 impl<W: Word> DistanceField<W> {
     /// Whether a field for this problem fits the word.
+    #[must_use]
     pub fn fits(problem: &GridProblem) -> bool {
         // A key is a distance, a heuristic and k_m, which stays below the limit, too.
         Weights::of(problem.grid()).fit::<W>(problem.grid(), 2)
@@ -125,7 +126,9 @@ impl<W: Word> DistanceField<W> {
 
     fn settle_for(&mut self, end: Upkeep, start: Cell) -> Upkeep {
         let rhs = self.layout.map(|layout| self.node(layout.id(start)).rhs);
-        self.settled = rhs.filter(|_| end == Upkeep::Settled).map(|rhs| (start, rhs));
+        self.settled = rhs
+            .filter(|_| end == Upkeep::Settled)
+            .map(|rhs| (start, rhs));
         end
     }
 

@@ -107,9 +107,7 @@ impl<W: Word> Route<W> {
         let layout = grid.layout();
         let legal = problem.moves().legal(grid.around_id(layout.id(cell)));
         let weight = weights.step::<W>(grid, layout.id(cell), layout.id(next), k);
-        grid.is_free(cell)
-            && legal >> k & 1 == 1
-            && self.left[from] == self.left[from - 1] + weight
+        grid.is_free(cell) && legal >> k & 1 == 1 && self.left[from] == self.left[from - 1] + weight
     }
 
     /// Keeps only what follows from a cell on the route that holds.

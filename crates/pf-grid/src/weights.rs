@@ -72,7 +72,9 @@ impl Weights {
     pub fn between<W: Word>(&self, grid: &Grid, from: u32, to: u32) -> W {
         let layout = grid.layout();
         let is_straight = |offset: i32| from.wrapping_add_signed(offset) == to;
-        let k = layout.offsets()[..4].iter().any(|&offset| is_straight(offset));
+        let k = layout.offsets()[..4]
+            .iter()
+            .any(|&offset| is_straight(offset));
         self.step(grid, from, to, if k { 0 } else { 4 })
     }
 

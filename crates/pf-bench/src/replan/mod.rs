@@ -240,7 +240,10 @@ fn shot(
         times[k] = change + time;
         costs[k] = proved(&report);
         count.latency.expanded += report.stats.expanded;
-        count.afresh += u32::from(report.note("replanned") != Some("repaired"));
+        count.afresh += u32::from(!matches!(
+            report.note("replanned"),
+            Some("kept" | "searched" | "repaired")
+        ));
         let mut cx = Context::seeded(seed);
         let (time, ()) = timed(|| one.planner.settle(revision.problem(), &mut cx));
         count.upkeep.add(time);

@@ -187,7 +187,10 @@ impl<W: Word> Guided<W> {
             return;
         };
         self.route.check(problem, changed, weights);
-        let (layout, apart) = (*problem.grid().layout(), weights.apart::<W>(problem.moves()));
+        let (layout, apart) = (
+            *problem.grid().layout(),
+            weights.apart::<W>(problem.moves()),
+        );
         let to = |cell: Cell| {
             let (x, y) = layout.position(layout.id(cell));
             move |(a, b): (u32, u32)| (a.abs_diff(x), b.abs_diff(y))
@@ -212,7 +215,9 @@ impl<W: Word> Guided<W> {
 
     /// From where the field was settled.
     fn anchor(&self, problem: &GridProblem) -> Cell {
-        self.field.settled().map_or(problem.goal(), |(cell, _)| cell)
+        self.field
+            .settled()
+            .map_or(problem.goal(), |(cell, _)| cell)
     }
 
     /// Whether what is left of the route is as good as ever.
@@ -250,7 +255,10 @@ impl<W: Word> Guided<W> {
                 let (_, (left, exact)) = estimate();
                 exact && left == least
             };
-            (learnt.map_or(least, |learnt| least.max(learnt[id as usize])), exact)
+            (
+                learnt.map_or(least, |learnt| least.max(learnt[id as usize])),
+                exact,
+            )
         }
     }
 
@@ -275,7 +283,9 @@ impl<W: Word> Guided<W> {
                     return Some(least);
                 }
                 // The route would have to take its time for places that are further than all of it.
-                (least <= most).then(|| self.route.left(id, layout.cell(id))).flatten()
+                (least <= most)
+                    .then(|| self.route.left(id, layout.cell(id)))
+                    .flatten()
             };
             search.run_until(problem, problem.start(), heuristic, arrive, cx)
         } else {
@@ -351,7 +361,9 @@ impl<W: Word> Guided<W> {
             id = next;
             left = left - weight;
         }
-        let weights = self.basis.map_or(Weights::of(problem.grid()), |(_, weights)| weights);
+        let weights = self
+            .basis
+            .map_or(Weights::of(problem.grid()), |(_, weights)| weights);
         while let Some(before) = self.tail.pop() {
             let weight = weights.between::<W>(problem.grid(), before, id);
             left = left + weight;

@@ -358,7 +358,8 @@ impl Replanner<GridProblem> for DStarLite {
             return;
         }
         guided!(&mut self.width, guided => guided.prepare(problem));
-        if self.debt > DEBT * self.effort.max(1000) && !is_hopeless(problem)
+        if self.debt > DEBT * self.effort.max(1000)
+            && !is_hopeless(problem)
             && self.repair(problem, cx).is_none()
         {
             self.refresh(problem, cx);
