@@ -35,6 +35,7 @@ mod layout;
 mod moves;
 mod problem;
 mod search;
+mod swarm;
 mod weights;
 mod word;
 
@@ -49,5 +50,6 @@ pub use layout::Layout;
 pub use moves::{DIRECTIONS, Moves};
 pub use problem::{GridChange, GridProblem};
 pub use search::{End, Search};
+pub use swarm::{Chances, Draw, Ended, Medium, Swarm, SwarmRules, Visited, Walk};
 pub use weights::Weights;
 pub use word::Word;
