@@ -9,6 +9,7 @@ mod demo;
 mod explain;
 mod failure;
 mod interrupt;
+mod paper;
 mod plan;
 mod planners;
 mod question;
@@ -51,6 +52,8 @@ enum Verb {
     Plan(plan::Args),
     /// Play the timed changes of a scenario and plan anew after each
     Replan(replan::Args),
+    /// Run the experiment of a paper again
+    Paper(paper::Args),
     /// List the planners
     Planners(planners::Args),
     /// Compare all planners on a few maps and draw pictures
@@ -70,6 +73,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
     match verb {
         Verb::Plan(args) => plan::act(&args, &cancel),
         Verb::Replan(args) => replan::act(&args, &cancel),
+        Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),
     }
