@@ -106,6 +106,9 @@ fn act_redlarski(args: &RedlarskiArgs, cancel: &CancelToken) -> Result<(), Stopp
     });
     bar.finish_and_clear();
     let rows = rows?;
+    if let Some(folder) = &args.report {
+        redlarski::write_report(folder, &stories, &rows)?;
+    }
     let mut out = stdout().lock();
     if args.json {
         for row in &rows {

@@ -20,6 +20,9 @@ pub enum PaperError {
     /// A file could not be written.
     #[error(transparent)]
     File(#[from] pf_io::FileError),
+    /// A folder could not be made.
+    #[error("{0} cannot be made: {1}")]
+    Folder(String, String),
     /// Somebody asked to stop.
     #[error("interrupted")]
     Interrupted,

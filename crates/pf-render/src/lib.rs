@@ -42,5 +42,5 @@ mod svg;
 mod world;
 
 pub use picture::{Line, Picture};
-pub use png::NoPicture;
+pub use png::{NoPicture, png_of_svg};
 pub use recorder::Recorder;

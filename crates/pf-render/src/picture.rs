@@ -296,7 +296,7 @@ impl Picture {
     /// # Errors
     /// [`NoPicture`] if it cannot be drawn.
     pub fn png(&self) -> Result<Vec<u8>, NoPicture> {
-        png::draw(&self.svg())
+        png::png_of_svg(&self.svg())
     }
 
     fn next_colour(&self) -> &'static str {

@@ -11,7 +11,11 @@ use std::sync::Arc;
 #[error("cannot draw the picture: {0}")]
 pub struct NoPicture(String);
 
-pub(crate) fn draw(svg: &str) -> Result<Vec<u8>, NoPicture> {
+/// Draws an SVG; its text is set in `DejaVu` Sans.
+///
+/// # Errors
+/// [`NoPicture`] if the text is no SVG, or has no size.
+pub fn png_of_svg(svg: &str) -> Result<Vec<u8>, NoPicture> {
     let mut options = Options {
         font_family: "DejaVu Sans".to_owned(),
         ..Options::default()

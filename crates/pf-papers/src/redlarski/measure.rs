@@ -181,6 +181,9 @@ fn play(
     options: &Options,
 ) -> Result<[Vec<Run>; 5], PaperError> {
     let mut tables: [Vec<Run>; 5] = std::array::from_fn(|_| Vec::new());
+    // The first call of all works out what all later ones share.
+    let brief = Budget::unlimited().iterations(1);
+    let _ = (contender.make)(1).plan(&story.first.0, &mut Context::seeded(0).within(brief));
     for seed in 0..u64::from(options.runs) {
         let context = |table: u64| {
             let budget = Budget::unlimited().cancel(&options.cancel);

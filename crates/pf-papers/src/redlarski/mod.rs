@@ -6,10 +6,15 @@
 
 mod cases;
 mod contenders;
+mod figures;
+mod heat;
 mod measure;
+mod report;
 mod text;
 
 pub use cases::{MAPS, Printed, Published, Story, stories};
 pub use contenders::{CONTENDERS, Contender, Live};
+pub use figures::{Figure, figures};
 pub use measure::{Measured, Options, Row, Said, run};
+pub use report::write_report;
 pub use text::{summary, tables};

@@ -81,7 +81,7 @@ fn table(rows: &[&Row]) -> Table {
     table
 }
 
-fn verdict(reproduced: Option<bool>) -> &'static str {
+pub(super) fn verdict(reproduced: Option<bool>) -> &'static str {
     match reproduced {
         Some(true) => "yes",
         Some(false) => "NO",
@@ -135,7 +135,7 @@ pub(super) fn number(x: f64) -> String {
     format!("{x:.2}")
 }
 
-fn significant(x: f64) -> String {
+pub(super) fn significant(x: f64) -> String {
     match x {
         x if x < 10.0 => format!("{x:.2}"),
         x if x < 100.0 => format!("{x:.1}"),
@@ -143,7 +143,7 @@ fn significant(x: f64) -> String {
     }
 }
 
-fn micros(us: f64) -> String {
+pub(super) fn micros(us: f64) -> String {
     match us {
         us if us < 1e3 => significant(us) + " us",
         us if us < 1e6 => significant(us / 1e3) + " ms",

@@ -4,6 +4,10 @@ use pf_core::{Context, Solved};
 use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem, Layout, Weights, Word};
 use std::{cmp::Reverse, collections::BinaryHeap};
 
+/// A pool of so many cells begins one cell upstream of where the drop is caught. Less, and drops
+/// arrive late but by a better way; more, and what lies too low upstream catches the next ones.
+const UPSTREAM: usize = 64;
+
 /// How the drops ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum End {
@@ -193,6 +197,9 @@ impl<W: Word> Field<W> {
                 continue;
             }
             changed = true;
+            let upstream = self.trail.len().saturating_sub(1 + *size / UPSTREAM);
+            at = self.trail[upstream];
+            self.trail.truncate(upstream + 1);
             let to = match self.fill(problem, at, goal, *size, cx) {
                 Pool::Full(outlet, _) => outlet,
                 Pool::Reached(_) => goal,
