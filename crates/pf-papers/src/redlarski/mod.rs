@@ -11,6 +11,7 @@ mod heat;
 mod measure;
 mod report;
 mod text;
+pub mod tune;
 
 pub use cases::{MAPS, Printed, Published, Story, stories};
 pub use contenders::{CONTENDERS, Contender, Live};
