@@ -67,7 +67,7 @@ struct RedlarskiArgs {
     #[arg(long, value_name = "N", default_value = "1")]
     threads: NonZeroUsize,
     /// Only the maps whose name contains this
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     only: Option<String>,
 }
 

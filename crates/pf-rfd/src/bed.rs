@@ -48,6 +48,9 @@ pub(crate) struct Bed {
     altitude: Vec<f64>,
     /// By id: the logarithm to base 2 of what nearness to the goal adds to a weight as a factor.
     pull: Vec<f64>,
+    /// By id and direction: what stands for the gradient in eq. 4, by the altitudes on which the
+    /// drops of an iteration move.
+    toll: Vec<[f64; 8]>,
     /// By all directions, and by those downhill.
     all: Chances,
     down: Chances,
@@ -68,6 +71,7 @@ impl Bed {
             rules,
             altitude: Vec::new(),
             pull: Vec::new(),
+            toll: Vec::new(),
             all: Chances::default(),
             down: Chances::default(),
             climb: 0.0,
@@ -167,6 +171,8 @@ impl Bed {
         let layout = problem.grid().layout();
         self.all.reset(layout);
         self.down.reset(layout);
+        self.toll.clear();
+        self.toll.resize(layout.len(), [0.0; 8]);
         for cell in layout.cells() {
             self.weigh(problem, layout.id(cell));
         }
@@ -183,6 +189,12 @@ impl Bed {
         }
         let legal = problem.moves().legal(grid.around_id(id));
         let offsets = grid.layout().offsets();
+        let mut gradients = [0.0; 8];
+        for k in 0..8 {
+            let next = id.wrapping_add_signed(offsets[k]);
+            gradients[k] = self.gradient(problem, id, next, k);
+        }
+        self.toll[id as usize] = self.rules.law.tolls(&gradients);
         if self.is_pulled()
             && let Some(k) = (0..8)
                 .find(|&k| legal >> k & 1 == 1 && id.wrapping_add_signed(offsets[k]) == self.goal)
@@ -194,12 +206,10 @@ impl Bed {
             self.down.set(id, &weights);
             return;
         }
-        let mut gradients = [0.0; 8];
         let mut pulls = [0.0; 8];
         let mut downhill = 0;
         for k in 0..8 {
             let next = id.wrapping_add_signed(offsets[k]);
-            gradients[k] = self.gradient(problem, id, next, k);
             pulls[k] = self.pull[next as usize];
             downhill |= u8::from(gradients[k] > FLAT) << k;
         }
@@ -261,14 +271,13 @@ impl Bed {
         let mut carried = 0.0;
         for &k in walk.steps() {
             let k = usize::from(k);
-            let next = at.wrapping_add_signed(offsets[k]);
-            let gradient = self.gradient(problem, at, next, k);
             // A bed does not sink below the sea.
-            let eroded = (share * self.rules.law.erosion(gradient)).min(self.altitude[at as usize]);
+            let most = self.altitude[at as usize];
+            let eroded = (share * self.toll[at as usize][k]).min(most);
             self.altitude[at as usize] -= eroded;
             carried += eroded;
             self.mark(at);
-            at = next;
+            at = at.wrapping_add_signed(offsets[k]);
         }
         if walk.ended() == Ended::Stuck && at != self.goal && self.rules.deposit > 0.0 {
             self.altitude[at as usize] += self.rules.deposit * carried;
@@ -371,11 +380,10 @@ impl Law {
         weights
     }
 
-    /// What stands for the gradient in eq. 4.
-    #[inline]
-    fn erosion(&self, gradient: f64) -> f64 {
+    /// What stands for the gradients in eq. 4.
+    fn tolls(&self, gradients: &[f64; 8]) -> [f64; 8] {
         match *self {
-            Self::Linear { flat, uphill, .. } => {
+            Self::Linear { flat, uphill, .. } => gradients.map(|gradient| {
                 if gradient > FLAT {
                     gradient
                 } else if gradient < -FLAT {
@@ -383,8 +391,10 @@ impl Law {
                 } else {
                     flat
                 }
+            }),
+            Self::Exponential { log_base, .. } => {
+                gradients.map(|gradient| exp2(log_base * gradient))
             }
-            Self::Exponential { log_base, .. } => exp2(log_base * gradient),
         }
     }
 }
