@@ -1,8 +1,10 @@
 //! One seed, one trace: what each planner looks at, in which order, and what it answers.
 
+use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{AStar, DStarLite, Dijkstra};
 use pf_core::{Context, Event, Planner, Problem, Replanner, Report};
 use pf_grid::{Cell, Grid, GridChange, GridProblem, Moves};
+use pf_rfd::{Rfd, RfdExact, RfdParams, RfdStar, RfdStarParams};
 use pf_tests::golden;
 use std::fmt::{self, Write as _};
 
@@ -32,22 +34,26 @@ fn events(
         lines.push(match event {
             Event::Expanded(cell) => format!("expanded {cell}"),
             Event::Improved(best) => format!("improved {}", best.cost),
+            Event::Candidate(path) => format!("candidate {}", cells(path)),
+            Event::Field { name, value } => {
+                let goal = Cell::new(10, 3);
+                format!("{name} {:.9} at {goal}", value(&goal))
+            }
             other => format!("{other:?}"),
         });
     };
     let report = ask(&mut Context::seeded(7).traced(&mut listen));
     let (word, n) = (report.outcome.word(), report.stats.iterations);
     let mut text = lines.join("\n");
-    write!(text, "\n{word} in {n} iterations:")?;
-    for cell in report
-        .outcome
-        .solved()
-        .map_or(&[][..], |best| &best.solution)
-    {
-        write!(text, " {cell}")?;
-    }
-    text.push('\n');
+    let solved = report.outcome.solved();
+    let path = cells(solved.map_or(&[][..], |best| &best.solution));
+    writeln!(text, "\n{word} in {n} iterations: {path}")?;
     Ok(text)
+}
+
+fn cells(path: &[Cell]) -> String {
+    let cells: Vec<_> = path.iter().map(Cell::to_string).collect();
+    cells.join(" ")
 }
 
 /// What a planner shows of a plan.
@@ -91,4 +97,57 @@ fn golden_trace_of_d_star_lite() {
     let replan = |cx: &mut Context<'_, _>| planner.replan(&revision, cx).expect("supported");
     text += &events(replan).expect("a string takes text");
     golden::check("d-star-lite", &text);
+}
+
+#[test]
+fn golden_trace_of_the_exact_river() {
+    golden::check(
+        "rfd-exact",
+        &trace(&mut RfdExact::default(), Moves::default()),
+    );
+}
+
+#[test]
+fn golden_traces_of_rivers() {
+    let params = RfdParams {
+        drops: 4,
+        iterations: 5,
+        climb: 0.5,
+        ..RfdParams::default()
+    };
+    let mut rfd = Rfd::new(params).expect("sound parameters");
+    golden::check("rfd", &trace(&mut rfd, Moves::default()));
+    for (name, params) in [
+        ("rfd-star-paper", RfdStarParams::paper()),
+        ("rfd-star-authors-code", RfdStarParams::authors_code()),
+        ("rfd-star-seeded", RfdStarParams::seeded()),
+    ] {
+        let params = RfdStarParams {
+            drops: 4,
+            iterations: 5,
+            ..params
+        };
+        let mut star = RfdStar::new(params).expect("sound parameters");
+        golden::check(name, &trace(&mut star, Moves::default()));
+    }
+}
+
+#[test]
+fn golden_traces_of_ants() {
+    let params = AcoParams {
+        ants: 4,
+        iterations: 5,
+        ..AcoParams::default()
+    };
+    let mut aco = Aco::new(params).expect("sound parameters");
+    golden::check("aco", &trace(&mut aco, Moves::default()));
+    let params = AcoStarParams {
+        ants: 4,
+        iterations: 5,
+        tabu: true,
+        limits: true,
+        ..AcoStarParams::default()
+    };
+    let mut star = AcoStar::new(params).expect("sound parameters");
+    golden::check("aco-star", &trace(&mut star, Moves::default()));
 }

@@ -1,11 +1,12 @@
 //! The 45 cases of the river paper's Tables 1 to 5: exact lengths and the paper's digits, from
-//! scratch and, for D* Lite, replanned from Table 1's state.
+//! scratch and, for D* Lite and the exact river, replanned from Table 1's state.
 #![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
 use pf_classic::{AStar, DStarLite, DStarLiteParams, Dijkstra};
 use pf_core::{Context, Outcome, Planner, Problem, Replanner, Report};
 use pf_grid::{GridChange, GridCost, GridProblem};
 use pf_io::{Scenario, read_scenario};
+use pf_rfd::RfdExact;
 use std::path::Path;
 
 fn scenario() -> Scenario {
@@ -38,8 +39,11 @@ fn printed(cost: GridCost, rounded: bool) -> String {
 fn searches_give_the_papers_lengths() {
     let scenario = scenario();
     assert_eq!(scenario.cases.len(), 45);
-    let planners: [&mut dyn Planner<GridProblem>; 2] =
-        [&mut Dijkstra::default(), &mut AStar::default()];
+    let planners: [&mut dyn Planner<GridProblem>; 3] = [
+        &mut Dijkstra::default(),
+        &mut AStar::default(),
+        &mut RfdExact::default(),
+    ];
     for planner in planners {
         for case in &scenario.cases {
             let report = planner.plan(&case.problem, &mut Context::seeded(0));
@@ -53,8 +57,8 @@ fn searches_give_the_papers_lengths() {
     }
 }
 
-/// How often D* Lite repaired in the 36 cases that follow another.
-fn replan_all(params: &DStarLiteParams) -> u32 {
+/// How often a planner says that it `did` so in the 36 cases that follow another.
+fn replan_all<T: Replanner<GridProblem>>(make: impl Fn() -> T, did: &str) -> u32 {
     let scenario = scenario();
     let mut repaired = 0;
     for case in &scenario.cases {
@@ -62,7 +66,7 @@ fn replan_all(params: &DStarLiteParams) -> u32 {
             continue;
         };
         let mut problem = first.problem.clone();
-        let mut planner = DStarLite::new(params.clone()).unwrap();
+        let mut planner = make();
         let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
         assert_eq!(proven(&report), first.expected.as_ref().unwrap().cost);
         let mut changes = case.changes.clone();
@@ -80,7 +84,7 @@ fn replan_all(params: &DStarLiteParams) -> u32 {
             case.name
         );
         let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-        repaired += u32::from(report.note("replanned") == Some("repaired"));
+        repaired += u32::from(report.note("replanned") == Some(did));
         let expected = &case.expected.as_ref().unwrap().cost;
         assert_eq!(proven(&report), *expected, "{}", case.name);
     }
@@ -89,11 +93,17 @@ fn replan_all(params: &DStarLiteParams) -> u32 {
 
 #[test]
 fn d_star_lite_gives_the_papers_lengths_from_table_1s_state() {
-    replan_all(&DStarLiteParams::default());
+    replan_all(DStarLite::default, "repaired");
     // Tables 3 and 4 change cells only: there, at least, an endless patience repairs.
     let published = DStarLiteParams {
         patience: f64::INFINITY,
         eager: true,
     };
-    assert!(replan_all(&published) >= 18);
+    let published = || DStarLite::new(published.clone()).unwrap();
+    assert!(replan_all(published, "repaired") >= 18);
+}
+
+#[test]
+fn the_exact_river_gives_the_papers_lengths_from_table_1s_state() {
+    assert!(replan_all(RfdExact::default, "kept") >= 30);
 }

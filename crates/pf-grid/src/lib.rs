@@ -39,6 +39,7 @@ mod moves;
 mod problem;
 mod route;
 mod search;
+mod swarm;
 mod weights;
 mod word;
 
@@ -57,5 +58,6 @@ pub use moves::{DIRECTIONS, Moves};
 pub use problem::{GridChange, GridProblem};
 pub use route::Route;
 pub use search::{End, Search};
+pub use swarm::{Chances, Draw, Ended, Medium, Swarm, SwarmRules, Visited, Walk};
 pub use weights::{Apart, Weights};
 pub use word::Word;

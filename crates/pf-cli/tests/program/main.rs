@@ -10,6 +10,7 @@ mod interrupts;
 mod malformed;
 #[path = "../../../pf-io/tests/inputs/malformed_worlds.rs"]
 mod malformed_worlds;
+mod papers;
 mod replans;
 mod scens;
 mod worlds;

@@ -1,0 +1,66 @@
+//! `pf paper`.
+
+use crate::{Folder, pf};
+
+#[test]
+fn a_row_per_planner_and_table_with_the_papers_numbers_beside_ours() {
+    let folder = Folder::with(&[]);
+    let out = folder.name("report");
+    let run = pf(&[
+        "paper",
+        "redlarski",
+        "--runs",
+        "2",
+        "--only",
+        "mosaic-20",
+        "--json",
+        "--report",
+        &out,
+    ])
+    .ends(0);
+    let rows: Vec<serde_json::Value> = run
+        .out
+        .lines()
+        .map(|line| serde_json::from_str(line).unwrap())
+        .collect();
+    let planners = rows.len() / 5;
+    assert!(planners >= 9 && rows.len() == 5 * planners);
+    let row = |planner: &str, table: u64| {
+        let of = |row: &&serde_json::Value| row["planner"] == planner && row["table"] == table;
+        rows.iter().find(of).unwrap()
+    };
+    for table in 1..=5 {
+        for planner in ["dijkstra", "astar", "d-star-lite", "rfd-exact"] {
+            let rate = &row(planner, table)["measured"]["optimal_rate"];
+            assert_eq!(rate, 1.0, "{planner} in table {table}");
+        }
+        assert_eq!(row("astar", table)["reproduced"], true);
+        assert!(row("rfd-exact", table)["reproduced"].is_null());
+    }
+    let rfd = row("rfd", 1);
+    assert_eq!(rfd["paper"], "redlarski");
+    assert_eq!(rfd["case"], "mosaic-20");
+    assert_eq!(rfd["variant"], "paper");
+    assert_eq!(rfd["published"]["length"], 30.21);
+    assert!(rfd["measured"]["time_us"].as_f64().unwrap() > 0.0);
+    assert_eq!(row("rfd-star", 3)["published"]["says"], "optimal");
+    assert!(row("rfd-star", 2)["reproduced"].is_null());
+
+    let page = std::fs::read_to_string(format!("{out}/report.html")).unwrap();
+    assert!(page.contains("Table 5") && page.contains("<svg"));
+    for figure in [
+        "fig1-probability",
+        "fig3-maze-100",
+        "fig6-alley-20",
+        "altitudes-maze-50",
+    ] {
+        let png = std::fs::read(format!("{out}/{figure}.png")).unwrap();
+        assert!(png.starts_with(b"\x89PNG"), "{figure}");
+    }
+}
+
+#[test]
+fn a_map_there_is_none_of_is_refused_by_name() {
+    let run = pf(&["paper", "redlarski", "--only", "swamp"]).ends(2);
+    assert!(run.err.contains("`swamp`") && run.err.contains("maze-100"));
+}
