@@ -32,7 +32,7 @@ pub(super) fn heat(
     for cell in free() {
         let colour = colour(value(cell) / most.max(f64::MIN_POSITIVE));
         let (x, y) = (cell.x, cell.y);
-        
+
         let _ = write!(
             svg,
             r#"<rect x="{x}" y="{y}" width="1" height="1" fill="{colour}"/>"#
