@@ -25,17 +25,17 @@ pub(super) fn heat(
     let most = free().map(value).fold(0.0, f64::max);
     let scale = SIDE / f64::from(grid.width().max(grid.height()));
     let mut svg = format!(
-        r##"<text x="10" y="18">{title}</text><g transform="translate(10 28) scale({scale})"><rect width="{}" height="{}" fill="#3a3a3a"/>"##,
+        r##"<text x="10" y="18">{title}</text><g shape-rendering="crispEdges" transform="translate(10 28) scale({scale})"><rect width="{}" height="{}" fill="#3a3a3a"/>"##,
         grid.width(),
         grid.height()
     );
     for cell in free() {
         let colour = colour(value(cell) / most.max(f64::MIN_POSITIVE));
         let (x, y) = (cell.x, cell.y);
-        // A little wider than a cell, so that no seam shows.
+
         let _ = write!(
             svg,
-            r#"<rect x="{x}" y="{y}" width="1.02" height="1.02" fill="{colour}"/>"#
+            r#"<rect x="{x}" y="{y}" width="1" height="1" fill="{colour}"/>"#
         );
     }
     let points: Vec<String> = path
@@ -44,7 +44,7 @@ pub(super) fn heat(
         .collect();
     let _ = write!(
         svg,
-        r##"<polyline points="{}" fill="none" stroke="#d55e00" stroke-width="{}" stroke-linejoin="round"/></g>"##,
+        r##"<polyline points="{}" fill="none" shape-rendering="geometricPrecision" stroke="#d55e00" stroke-width="{}" stroke-linejoin="round"/></g>"##,
         points.join(" "),
         3.0 / scale
     );
