@@ -7,15 +7,15 @@ const WIDTH: usize = REACH + 1;
 /// The lower half of a symmetric matrix, row by row, the diagonal last.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Banded {
-    size: usize,
     rows: Vec<[f64; WIDTH]>,
-    factor: Vec<[f64; WIDTH]>,
+    /// Its root, after as many empty rows as one row reaches back; so in `work`.
+    root: Vec<[f64; WIDTH]>,
+    work: Vec<f64>,
 }
 
 impl Banded {
     /// A null matrix.
     pub(crate) fn reset(&mut self, size: usize) {
-        self.size = size;
         self.rows.clear();
         self.rows.resize(size, [0.0; WIDTH]);
     }
@@ -26,53 +26,55 @@ impl Banded {
         self.rows[i][j + REACH - i] += value;
     }
 
-    /// Solves the system for `right`, in its place; `None` if the matrix, with `shift` added to its
-    /// diagonal, is not positive definite. (Cholesky.)
-    pub(crate) fn solve(&mut self, shift: f64, right: &mut [f64]) -> Option<()> {
-        self.factor.clear();
-        self.factor.resize(self.size, [0.0; WIDTH]);
-        for i in 0..self.size {
-            let mut row = self.rows[i];
-            row[REACH] += shift;
-            let first = i.saturating_sub(REACH);
-            for j in first..i {
-                let other = &self.factor[j];
-                let mut value = row[j + REACH - i];
-                for k in first.max(j.saturating_sub(REACH))..j {
-                    value -= row[k + REACH - i] * other[k + REACH - j];
-                }
-                row[j + REACH - i] = value * other[REACH];
-            }
-            let square: f64 = row[..REACH].iter().map(|v| v * v).sum();
-            let rest = row[REACH] - square;
-            if rest.is_nan() || rest <= 1e-12 * row[REACH].abs() {
-                return None;
-            }
-            // Its inverse, as that is what all want.
-            row[REACH] = 1.0 / rest.sqrt();
-            self.factor[i] = row;
+    /// Solves the system for `right`, in its place; `None` if the matrix is not positive definite.
+    /// (Cholesky.)
+    pub(crate) fn solve(&mut self, right: &mut [f64]) -> Option<()> {
+        self.root.clear();
+        self.root.resize(REACH, [0.0; WIDTH]);
+        self.work.clear();
+        self.work.resize(REACH, 0.0);
+        for (i, (&row, value)) in self.rows.iter().zip(&*right).enumerate() {
+            let row = next_row(row, &self.root[i..])?;
+            let known = &self.work[i..];
+            let sum: f64 = row[..REACH].iter().zip(known).map(|(a, b)| a * b).sum();
+            self.work.push((value - sum) * row[REACH]);
+            self.root.push(row);
         }
-        for i in 0..self.size {
-            let mut value = right[i];
-            for k in i.saturating_sub(REACH)..i {
-                value -= self.factor[i][k + REACH - i] * right[k];
-            }
-            right[i] = value * self.factor[i][REACH];
-        }
-        for i in (0..self.size).rev() {
-            right[i] *= self.factor[i][REACH];
-            let value = right[i];
-            for k in i.saturating_sub(REACH)..i {
-                right[k] -= self.factor[i][k + REACH - i] * value;
+        for (i, value) in right.iter_mut().enumerate().rev() {
+            let row = &self.root[i + REACH];
+            *value = self.work[i + REACH] * row[REACH];
+            for (rest, a) in self.work[i..].iter_mut().zip(&row[..REACH]) {
+                *rest -= a * *value;
             }
         }
         Some(())
     }
 }
 
+/// A row of the root, from the matrix's and the rows before it; the diagonal is its inverse, as that
+/// is what all want.
+#[inline]
+fn next_row(mut row: [f64; WIDTH], before: &[[f64; WIDTH]]) -> Option<[f64; WIDTH]> {
+    let whole = row[REACH];
+    for (j, other) in before.iter().take(REACH).enumerate() {
+        let mut value = row[j];
+        for k in 0..j {
+            value -= row[k] * other[k + REACH - j];
+        }
+        row[j] = value * other[REACH];
+        row[REACH] -= row[j] * row[j];
+    }
+    if row[REACH].is_nan() || row[REACH] <= 1e-12 * whole.abs() {
+        return None;
+    }
+    row[REACH] = 1.0 / row[REACH].sqrt();
+    Some(row)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::class::ratio;
 
     #[test]
     fn a_system_is_solved() {
@@ -80,15 +82,8 @@ mod tests {
         matrix.reset(9);
         for i in 0..9usize {
             for j in i.saturating_sub(REACH)..=i {
-                matrix.add(
-                    i,
-                    j,
-                    if i == j {
-                        9.0
-                    } else {
-                        1.0 / (1 + i + j) as f64
-                    },
-                );
+                let value = if i == j { 9.0 } else { ratio(1, 1 + i + j) };
+                matrix.add(i, j, value);
             }
         }
         let wanted: Vec<f64> = (0..9).map(|k| f64::from(k) - 3.0).collect();
@@ -103,13 +98,14 @@ mod tests {
         let mut right: Vec<f64> = (0..9)
             .map(|i| (0..9).map(|j| entry(i, j) * wanted[j]).sum())
             .collect();
-        matrix.solve(0.0, &mut right).unwrap();
+        matrix.solve(&mut right).unwrap();
         assert!(
             right
                 .iter()
                 .zip(&wanted)
                 .all(|(a, b)| (a - b).abs() < 1e-12)
         );
-        assert!(matrix.solve(-10.0, &mut right).is_none());
+        matrix.add(4, 4, -10.0);
+        assert!(matrix.solve(&mut right).is_none());
     }
 }

@@ -23,6 +23,13 @@ fn crossings(path: &[f64], [x, y]: [f64; 2]) -> i32 {
     count
 }
 
+/// Drops corners that are nearer than `step` to the last one that stays; the ends stay.
+pub(crate) fn thin(corners: &mut Vec<Point>, step: f64) {
+    let Some(last) = corners.pop() else { return };
+    corners.dedup_by(|next, kept| (*next - *kept).norm() < step);
+    corners.push(last);
+}
+
 /// Puts a polyline into `path` with `inner` inner points, or as many as it has, if that is more: all
 /// its corners, and the rest evenly in between.
 pub(crate) fn lay(corners: &[Point], inner: usize, path: &mut Vec<f64>) {

@@ -2,7 +2,7 @@
 //! raise their weight until the judge is content, or hand out the exact shortest path.
 
 use crate::{
-    class::{lay, length, ratio, same_class},
+    class::{lay, length, ratio, same_class, thin},
     hinge::Hinge,
     newton::{Limits, Newton, Weighted},
     params::{LbfgsParams, Obstacles},
@@ -20,9 +20,14 @@ const RAISES: u32 = 4;
 /// weight does not reach all of it.
 const SPARE: f64 = 2e-3;
 /// A step of Newton's method that promises less than this share of the loss is not taken.
-const WORTH: f64 = 1e-6;
+const WORTH: f64 = 1e-9;
 /// How much longer than the exact path its polyline may be for its arcs, as a share.
 const EXCESS: f64 = 1e-6;
+
+/// The same for the path to begin with.
+const COARSE: f64 = 0.05;
+/// Corners nearer to each other than this share of a step are one in the path to begin with.
+const CLOSE: f64 = 0.3;
 
 /// What our rules remember from plan to plan.
 #[derive(Clone, Debug, Default)]
@@ -115,8 +120,17 @@ impl Exact {
             self.hinge.bounds = Some(*problem.world().bounds());
             self.filled = Some(problem.world().stamp());
         }
-        let corners = guide.route.flattened(0.05 * guide.route.length());
-        lay(&corners, params.points, &mut self.laid);
+        let mut corners = guide.route.flattened(COARSE * guide.route.length());
+        thin(
+            &mut corners,
+            CLOSE * guide.route.length() / ratio(params.points + 1, 1),
+        );
+        let inner = match params.obstacles {
+            Obstacles::Hinge => params.points.max(2 * corners.len()),
+            // The paper's loss depends on their number.
+            Obstacles::Potential => params.points,
+        };
+        lay(&corners, inner, &mut self.laid);
         let mut job = Job {
             problem,
             params,
@@ -126,7 +140,7 @@ impl Exact {
         let mut origin = Origin::Afresh;
         let mut good = false;
         if warm && !self.last.is_empty() {
-            (good, origin) = self.from_last(&mut job, cx);
+            (good, origin) = self.keep_on(&mut job, cx);
         }
         if !good && !cx.stopped() {
             origin = Origin::Afresh;
@@ -136,6 +150,7 @@ impl Exact {
         let path = if good {
             points(&self.path).collect()
         } else {
+            cx.note("fallback", "the exact shortest path: no smooth one passed");
             flattened(problem, &guide)
         };
         let finished = !cx.stopped();
@@ -172,21 +187,17 @@ impl Exact {
     }
 
     /// Tries to keep to the last path's side of things. Says whether `path` is good now.
-    fn from_last(
-        &mut self,
-        job: &mut Job<'_>,
-        cx: &mut Context<'_, WorldProblem>,
-    ) -> (bool, Origin) {
-        self.follow_ends(job.problem);
+    fn keep_on(&mut self, job: &mut Job<'_>, cx: &mut Context<'_, WorldProblem>) -> (bool, Origin) {
+        let leapt = self.follow_ends(job.problem);
         if same_class(&self.hinge.solids, &self.path, &self.laid) {
             // The exact path may be the better beginning after a leap.
             let weight = |exact: &mut Self, path: &[f64], job: &Job<'_>| exact.loss(path, job);
             let path = std::mem::take(&mut self.path);
             let laid = std::mem::take(&mut self.laid);
-            let warm = weight(self, &path, job) <= weight(self, &laid, job);
+            let warm = !leapt && weight(self, &path, job) <= weight(self, &laid, job);
             (self.path, self.laid) = (path, laid);
             if !warm {
-                return (false, Origin::Afresh);
+                self.path.clone_from(&self.laid);
             }
             let steps = self.improve(job, false, cx);
             let origin = if steps == Some(0) {
@@ -223,8 +234,9 @@ impl Exact {
     }
 
     /// Puts the last path into `path`, its ends where they are now: bent along if that keeps its
-    /// class, else with a straight piece to each.
-    fn follow_ends(&mut self, problem: &WorldProblem) {
+    /// class, else with a straight piece to each. Says whether an end went further than a step of the
+    /// path: a path bent that far is no good beginning.
+    fn follow_ends(&mut self, problem: &WorldProblem) -> bool {
         let n = self.last.len() / 2;
         let ends = [problem.start(), problem.goal()];
         let old = [
@@ -241,8 +253,9 @@ impl Exact {
                 .extend([self.last[2 * k] + shift.x, self.last[2 * k + 1] + shift.y]);
         }
         self.path.extend([ends[1].x, ends[1].y]);
-        if by[0] == by[1] && by[0].norm_squared() <= 0.0 {
-            return;
+        let furthest = by[0].norm().max(by[1].norm());
+        if furthest <= 0.0 {
+            return false;
         }
         self.other.clear();
         self.other.extend([ends[0].x, ends[0].y]);
@@ -252,6 +265,7 @@ impl Exact {
             let corners: Vec<Point> = points(&self.other).collect();
             lay(&corners, n - 2, &mut self.path);
         }
+        furthest > length(&self.path) / ratio(n - 1, 1)
     }
 
     /// The loss of a path by which two beginnings are compared.

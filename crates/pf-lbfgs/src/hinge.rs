@@ -64,19 +64,20 @@ impl Hinge {
             if !self.solids.is_near(solid, a, b, self.distance) {
                 continue;
             }
-            let touch = self.solids.touch(solid, a, b);
-            if touch.distance < self.distance {
-                lack(segment, self.distance - touch.distance, &touch);
-            }
+            let distance = self.distance;
+            self.solids.each_touch(solid, a, b, distance, |touch| {
+                lack(segment, distance - touch.distance, &touch);
+            });
         }
     }
 
     /// By how much each coordinate of an inner point is out of bounds.
     fn each_excess(&self, path: &[f64], mut excess: impl FnMut(usize, f64)) {
         let Some(bounds) = &self.bounds else { return };
-        for k in 2..path.len() - 2 {
+        let inner = path.iter().enumerate().take(path.len() - 2).skip(2);
+        for (k, value) in inner {
             let (min, max) = (bounds.min()[k % 2], bounds.max()[k % 2]);
-            let over = path[k] - path[k].clamp(min, max);
+            let over = value - value.clamp(min, max);
             if over != 0.0 {
                 excess(k, over);
             }
@@ -147,9 +148,9 @@ pub(crate) fn add_outer(
         (segment + end >= 1 && segment + end <= points).then(|| 2 * (segment + end - 1))
     };
     let shares = [1.0 - at, at];
-    for end in 0..2 {
+    for (end, share) in shares.iter().enumerate() {
         let Some(row) = inner(end) else { continue };
-        let square = shares[end] * shares[end];
+        let square = share * share;
         matrix.add(row, row, square * xx);
         matrix.add(row + 1, row, square * xy);
         matrix.add(row + 1, row + 1, square * yy);

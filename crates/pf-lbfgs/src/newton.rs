@@ -57,6 +57,10 @@ fn upward([xx, xy, yy]: [f64; 3]) -> [f64; 3] {
     [scale * (radius + half), scale * xy, scale * (radius - half)]
 }
 
+/// How much of a step is tried next, and at least.
+const SHRINK: f64 = 0.4;
+const SMALLEST: f64 = 1e-7;
+
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Limits {
@@ -115,8 +119,8 @@ impl Newton {
                 if there <= here + 1e-4 * share * slope {
                     break Some(there);
                 }
-                share /= 2.0;
-                if share < 1e-3 {
+                share *= SHRINK;
+                if share < SMALLEST {
                     break None;
                 }
             };
@@ -146,7 +150,7 @@ impl Newton {
             self.step.clear();
             self.step
                 .extend(self.gradient[inner.clone()].iter().map(|g| -g));
-            solved = self.matrix.solve(0.0, &mut self.step);
+            solved = self.matrix.solve(&mut self.step);
             if solved.is_some() {
                 break;
             }

@@ -415,16 +415,18 @@ mod tests {
                     let (x, y) = (place(0, &mut rng), place(1, &mut rng));
                     let step = 1e-5;
                     let near_a_jump = (x - bump.peak[0]).abs().min((y - bump.peak[1]).abs()) < 1e-4;
-                    let slope = |x: f64, y: f64| Some(bump.height(x, y)?.gradient);
-                    let around = [(x + step, y), (x - step, y), (x, y + step), (x, y - step)];
-                    let [Some(e), Some(w), Some(n), Some(s)] = around.map(|(x, y)| slope(x, y))
-                    else {
+                    let slope = |dx: f64, dy: f64| Some(bump.height(x + dx, y + dy)?.gradient);
+                    let rise = |dx: f64, dy: f64| {
+                        let (after, before) = (slope(dx, dy)?, slope(-dx, -dy)?);
+                        Some([0, 1].map(|k| (after[k] - before[k]) / (2.0 * step)))
+                    };
+                    let (Some(by_x), Some(by_y)) = (rise(step, 0.0), rise(0.0, step)) else {
                         continue;
                     };
                     if near_a_jump {
                         continue;
                     }
-                    let found = [e[0] - w[0], e[1] - w[1], n[1] - s[1]].map(|d| d / (2.0 * step));
+                    let found = [by_x[0], by_x[1], by_y[1]];
                     let exact = bump.curvature(x, y).unwrap();
                     seen += 1;
                     for (a, b) in found.into_iter().zip(exact) {

@@ -7,6 +7,7 @@ use pf_classic::{
 };
 use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
+use pf_lbfgs::{Lbfgs, LbfgsParams};
 
 static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
@@ -16,6 +17,7 @@ static GRID: &[Entry<GridProblem>] = &[
 
 static WORLD: &[Entry<WorldProblem>] = &[
     entry!(replans "visibility-graph", VisibilityGraph, VisibilityGraphParams, "Lozano-Perez, Wesley 1979; Liu, Arimoto 1992"),
+    entry!(replans "lbfgs", Lbfgs, LbfgsParams, "Real-Time Pathfinding in Dynamic Open World Conditions via L-BFGS Optimization"),
 ];
 
 /// The planners on grids, each as a replanner; those that only plan start over
