@@ -1,5 +1,4 @@
 //! What a plan allocates once a planner has the memory it wants.
-#![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
 use allocation_counter::measure;
 use pf_conformance::world::{Obstacles as Kind, waypoint_world};
