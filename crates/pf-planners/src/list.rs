@@ -8,6 +8,7 @@ use pf_classic::{
 use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
 use pf_lbfgs::{Lbfgs, LbfgsParams};
+use pf_pso::{Pso, PsoParams};
 
 static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
@@ -17,6 +18,7 @@ static GRID: &[Entry<GridProblem>] = &[
 
 static WORLD: &[Entry<WorldProblem>] = &[
     entry!(replans "visibility-graph", VisibilityGraph, VisibilityGraphParams, "Lozano-Perez, Wesley 1979; Liu, Arimoto 1992"),
+    entry!(replans "pso", Pso, PsoParams, "Waypoint-Based Path Planning for Autonomous Robots with PSO"),
     entry!(replans "lbfgs", Lbfgs, LbfgsParams, "Real-Time Pathfinding in Dynamic Open World Conditions via L-BFGS Optimization"),
 ];
 

@@ -20,7 +20,7 @@ pub use oracle::{SLACK, Shortest, oracle};
 pub use roadmap::roadmap;
 pub use strategies::{changes_for, problems, shapes, stories, worlds};
 pub use suite::{Worlds, listing};
-pub use waypoints::{Obstacles, waypoint_world};
+pub use waypoints::{Obstacles, quadrant_scene, waypoint_world};
 
 use crate::{Options, examine, examine_replanner, verdict::expect_all};
 use pf_core::{Planner, Replanner};

@@ -1,6 +1,6 @@
 //! Worlds to try waypoint planners on: obstacles anywhere between two opposite corners.
 
-use super::shapes::{pick, rectangle, shape};
+use super::shapes::{circle, pick, rectangle, shape};
 use crate::{PlanRng, seeded};
 use pf_geom::{Point, Rectangle, Shape, Vector, World, WorldProblem};
 use rand::RngExt;
@@ -9,6 +9,10 @@ use rand::RngExt;
 const SIDE: f64 = 40.0;
 /// How far obstacles keep from start and goal.
 const SPARED: f64 = 3.0;
+
+/// In a swarm's scene: the robot's radius, and how far danger reaches.
+const SCENE_RADIUS: f64 = 0.2;
+const SCENE_CLEARANCE: f64 = 0.8;
 
 /// What lies between start and goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -65,4 +69,42 @@ pub fn waypoint_world(seed: u64, count: usize, obstacles: Obstacles) -> WorldPro
     }
     let world = World::with_shapes(bounds, shapes);
     WorldProblem::new(world, 0.0, ends[0], ends[1]).expect("points within the square")
+}
+
+/// The scene of `seed` for a swarm: one obstacle, round or upright and rectangular, with a radius or
+/// half sides from 0.5 to 1.5, near the middle of a square with a side of 10. A robot of radius 0.2 is
+/// to go from one quadrant to the opposite one, which two depends on `quarter`; both ends are further
+/// than 0.8 from the circle about the obstacle, and the straight line is not.
+///
+/// # Panics
+/// Never, but for a fault of its own.
+#[must_use]
+pub fn quadrant_scene(seed: u64, round: bool, quarter: u64) -> WorldProblem {
+    let mut rng = seeded(seed);
+    let bounds = Rectangle::new(Point::origin(), Point::new(10.0, 10.0)).expect("a square");
+    loop {
+        let mut near =
+            |from: f64, to: f64| Point::new(rng.random_range(from..to), rng.random_range(from..to));
+        let (low, high, middle) = (near(0.0, 4.0), near(6.0, 10.0), near(3.5, 6.5));
+        let half = near(0.5, 1.5).coords;
+        let ends = match quarter % 4 {
+            0 => [low, high],
+            1 => [Point::new(high.x, low.y), Point::new(low.x, high.y)],
+            2 => [high, low],
+            _ => [Point::new(low.x, high.y), Point::new(high.x, low.y)],
+        };
+        let (obstacle, reach) = if round {
+            (circle(middle.x, middle.y, half.x), half.x)
+        } else {
+            (rectangle(middle - half, middle + half), half.norm())
+        };
+        let about = circle(middle.x, middle.y, reach);
+        let straight = pf_geom::Segment::new(ends[0], ends[1]);
+        let clear = |end: &Point| about.distance_to_point(*end) > SCENE_CLEARANCE;
+        if ends.iter().all(clear) && about.distance(&straight) < SCENE_CLEARANCE {
+            let world = World::with_shapes(bounds, [obstacle]);
+            let problem = WorldProblem::new(world, SCENE_RADIUS, ends[0], ends[1]);
+            return problem.expect("points within the square");
+        }
+    }
 }
