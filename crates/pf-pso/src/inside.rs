@@ -4,7 +4,7 @@ use pf_geom::{Point, Segment, Shape, cross};
 
 /// The length of a segment within `reach` of a shape.
 pub(crate) fn length_inside(shape: &Shape, segment: &Segment, reach: f64) -> f64 {
-    let share = match shape {
+    let part = match shape {
         Shape::Circle(c) => extent(in_disc(segment, c.centre(), c.radius() + reach)),
         Shape::Rectangle(r) => {
             // The grown rectangle is convex: what is inside is one piece.
@@ -25,7 +25,7 @@ pub(crate) fn length_inside(shape: &Shape, segment: &Segment, reach: f64) -> f64
             together(pieces)
         }
     };
-    share * segment.length()
+    part * segment.length()
 }
 
 /// From the first to the last place of pieces that make up one.
