@@ -49,6 +49,10 @@ impl PlannerArgs {
         more: &[(&str, &str)],
     ) -> Result<Box<dyn Runner>, Failure> {
         let mut settings = self.settings.clone();
+        let takes_threads = entry.parameters().iter().any(|key| key.name == "threads");
+        if let Some(threads) = self.threads.filter(|_| takes_threads) {
+            settings.push(("threads".to_owned(), threads.to_string()));
+        }
         settings.extend(more.iter().map(|(k, v)| ((*k).to_owned(), (*v).to_owned())));
         entry.runner(&settings).map_err(|error| {
             let failure = Failure::usage(format!("--set: {error}"));

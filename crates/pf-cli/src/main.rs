@@ -10,6 +10,7 @@ mod drive;
 mod explain;
 mod failure;
 mod interrupt;
+mod paper;
 mod plan;
 mod planners;
 mod question;
@@ -55,6 +56,8 @@ enum Verb {
     Replan(replan::Args),
     /// Drive a robot with a sensor through a map it does not know
     Drive(drive::Args),
+    /// Run the experiment of a paper again
+    Paper(paper::Args),
     /// List the planners
     Planners(planners::Args),
     /// Compare all planners on a few maps and draw pictures
@@ -75,6 +78,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Plan(args) => plan::act(&args, &cancel),
         Verb::Replan(args) => replan::act(&args, &cancel),
         Verb::Drive(args) => drive::act(&args, &cancel),
+        Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),
     }

@@ -258,6 +258,12 @@ impl<'a, P: Problem> Context<'a, P> {
         }
     }
 
+    /// Counts `n` states visited that nobody needs to see one by one.
+    #[inline]
+    pub fn visited(&mut self, n: u64) {
+        self.stats.expanded += n;
+    }
+
     /// Counts an evaluation; the complete attempt is built only for a listener.
     #[inline]
     pub fn candidate(&mut self, solution: impl FnOnce() -> P::Solution) {

@@ -36,6 +36,7 @@ mod layout;
 mod moves;
 mod problem;
 mod search;
+mod swarm;
 mod weights;
 mod word;
 
@@ -51,5 +52,6 @@ pub use layout::Layout;
 pub use moves::{DIRECTIONS, Moves};
 pub use problem::{GridChange, GridProblem};
 pub use search::{End, Search};
+pub use swarm::{Chances, Draw, Ended, Medium, Swarm, SwarmRules, Visited, Walk};
 pub use weights::Weights;
 pub use word::Word;

@@ -1,0 +1,189 @@
+//! `pf paper`: the experiments of papers.
+
+use crate::failure::{Failure, Status};
+use indicatif::{ProgressBar, ProgressStyle};
+use pf_core::CancelToken;
+use pf_papers::{
+    PaperError,
+    redlarski::{self, tune},
+};
+use serde::Serialize;
+use std::{
+    io::{Write, stdout},
+    num::NonZeroUsize,
+    path::PathBuf,
+};
+
+/// Run the experiment of a paper again, and print its numbers beside ours
+#[derive(clap::Args)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    paper: Paper,
+}
+
+#[derive(clap::Subcommand)]
+enum Paper {
+    /// Rivers and ants on nine grids: five tables
+    Redlarski(RedlarskiArgs),
+    /// Search parameters for RFD* on made-up maps, and check them on the paper's nine
+    RedlarskiTune(TuneArgs),
+}
+
+#[derive(clap::Args)]
+struct TuneArgs {
+    /// Sets of parameters to begin with
+    #[arg(long, value_name = "N", default_value = "256")]
+    sets: NonZeroUsize,
+    /// The seed they are drawn from
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    seed: u64,
+    /// Runs on each of the nine maps
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    /// One object per map and set of parameters, one a line
+    #[arg(long)]
+    json: bool,
+    /// How many threads a swarm may use; nothing depends on it
+    #[arg(long, value_name = "N", default_value = "1")]
+    threads: NonZeroUsize,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  pf paper redlarski --report report
+  pf paper redlarski --runs 5 --only 20 --json")]
+struct RedlarskiArgs {
+    /// Runs of each planner
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    /// One object per table row, one a line
+    #[arg(long)]
+    json: bool,
+    /// Write figures and a report into this folder
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+    /// How many threads a swarm may use; lengths do not depend on it
+    #[arg(long, value_name = "N", default_value = "1")]
+    threads: NonZeroUsize,
+    /// Only the maps whose name contains this
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+}
+
+pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
+    let done = match &args.paper {
+        Paper::Redlarski(args) => act_redlarski(args, cancel),
+        Paper::RedlarskiTune(args) => act_tune(args, cancel),
+    };
+    match done {
+        Err(Stopped::Paper(PaperError::Interrupted)) => Ok(Status::Interrupted),
+        Err(Stopped::Paper(error)) => Err(Failure::Internal(error.to_string())),
+        Err(Stopped::Failure(failure)) => Err(failure),
+        Ok(()) => Ok(Status::Done),
+    }
+}
+
+/// Why there is no result.
+enum Stopped {
+    Paper(PaperError),
+    Failure(Failure),
+}
+
+impl From<PaperError> for Stopped {
+    fn from(error: PaperError) -> Self {
+        Self::Paper(error)
+    }
+}
+
+impl<E: Into<Failure>> From<E> for Stopped {
+    fn from(error: E) -> Self {
+        Self::Failure(error.into())
+    }
+}
+
+fn act_redlarski(args: &RedlarskiArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    let stories = redlarski::stories()?;
+    let known = |only: &String| {
+        stories
+            .iter()
+            .any(|story| story.map.contains(only.as_str()))
+    };
+    if let Some(only) = args.only.as_ref().filter(|only| !known(only)) {
+        let maps = redlarski::MAPS.join(", ");
+        let failure = Failure::usage(format!("--only: no map's name contains `{only}`"));
+        return Err(failure.help(format!("the maps are {maps}")).into());
+    }
+    let options = redlarski::Options {
+        runs: args.runs,
+        threads: args.threads.get(),
+        only: args.only.clone(),
+        cancel: cancel.clone(),
+    };
+    let bar = bar();
+    let published = redlarski::Published::read()?;
+    let rows = redlarski::run(&stories, &published, &options, &mut |turn, turns, what| {
+        tell(&bar, turn, turns, what);
+    });
+    bar.finish_and_clear();
+    let rows = rows?;
+    if let Some(folder) = &args.report {
+        redlarski::write_report(folder, &stories, &rows)?;
+    }
+    let mut out = stdout().lock();
+    if args.json {
+        json(&mut out, &rows)?;
+    } else {
+        write!(out, "{}", redlarski::tables(&rows))?;
+        writeln!(out, "{}", redlarski::summary(&rows))?;
+    }
+    Ok(())
+}
+
+fn act_tune(args: &TuneArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    let options = tune::TuneOptions {
+        sets: args.sets.get(),
+        seed: args.seed,
+        runs: args.runs,
+        threads: args.threads.get(),
+        cancel: cancel.clone(),
+    };
+    let bar = bar();
+    let stories = redlarski::stories()?;
+    let tuned = tune::tune(&stories, &options, &mut |done, all, what| {
+        tell(&bar, done, all, what);
+    });
+    bar.finish_and_clear();
+    let tuned = tuned?;
+    let mut out = stdout().lock();
+    if args.json {
+        json(&mut out, &tuned.checks)?;
+    } else {
+        write!(out, "{}", tuned.text())?;
+    }
+    Ok(())
+}
+
+fn bar() -> ProgressBar {
+    let bar = ProgressBar::new(0);
+    if let Ok(style) = ProgressStyle::with_template("{wide_bar} {pos}/{len} {msg}") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn tell(bar: &ProgressBar, done: usize, all: usize, what: &str) {
+    bar.set_length(all as u64);
+    bar.set_position(done as u64);
+    bar.set_message(what.to_owned());
+}
+
+/// One object a line.
+fn json(out: &mut impl Write, rows: &[impl Serialize]) -> Result<(), Failure> {
+    for row in rows {
+        let line = serde_json::to_string(row);
+        let line = line.map_err(|error| Failure::Internal(error.to_string()))?;
+        writeln!(out, "{line}")?;
+    }
+    Ok(())
+}

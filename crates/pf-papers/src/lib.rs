@@ -1,0 +1,29 @@
+//! The experiments of papers, run again: what was published beside what is measured here.
+//!
+//! A module per paper. It runs the paper's cases with every planner, says for each printed number
+//! whether it was reproduced, and draws the paper's figures. What it finds, and what the paper leaves
+//! open, stands in `docs/papers/`.
+
+pub mod redlarski;
+pub mod statistics;
+
+/// Why an experiment could not be run or reported.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum PaperError {
+    /// What the program carries is broken.
+    #[error("the paper's data: {0}")]
+    Data(String),
+    /// A picture could not be drawn.
+    #[error(transparent)]
+    Picture(#[from] pf_render::NoPicture),
+    /// A file could not be written.
+    #[error(transparent)]
+    File(#[from] pf_io::FileError),
+    /// A folder could not be made.
+    #[error("{0} cannot be made: {1}")]
+    Folder(String, String),
+    /// Somebody asked to stop.
+    #[error("interrupted")]
+    Interrupted,
+}

@@ -1,0 +1,115 @@
+//! What is said of many runs.
+
+use serde::Serialize;
+
+/// Mean, median and quartiles.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Spread {
+    /// The mean.
+    pub mean: f64,
+    /// The least.
+    pub least: f64,
+    /// The first quartile.
+    pub q1: f64,
+    /// The median.
+    pub median: f64,
+    /// The third quartile.
+    pub q3: f64,
+    /// The greatest.
+    pub most: f64,
+}
+
+impl Spread {
+    /// Of these values; none if there are none.
+    #[must_use]
+    pub fn of(values: impl IntoIterator<Item = f64>) -> Option<Self> {
+        let mut sorted: Vec<f64> = values.into_iter().collect();
+        sorted.sort_by(f64::total_cmp);
+        let (&least, &most) = (sorted.first()?, sorted.last()?);
+        let at = |share: f64| quantile(&sorted, share);
+        Some(Self {
+            mean: mean(&sorted),
+            least,
+            q1: at(0.25),
+            median: at(0.5),
+            q3: at(0.75),
+            most,
+        })
+    }
+}
+
+#[expect(clippy::cast_precision_loss, reason = "a number of runs")]
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+/// Between the two values nearest to it, in proportion.
+#[expect(
+    clippy::cast_precision_loss,
+    clippy::cast_possible_truncation,
+    clippy::cast_sign_loss,
+    reason = "an index"
+)]
+fn quantile(sorted: &[f64], share: f64) -> f64 {
+    let place = share * (sorted.len() - 1) as f64;
+    let below = place as usize;
+    let above = (below + 1).min(sorted.len() - 1);
+    sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
+}
+
+/// The interval in which the rate behind `hits` of `runs` lies with 95 % confidence.
+///
+/// Source: Wilson, *Probable Inference, the Law of Succession, and Statistical Inference*, 1927.
+///
+/// ```
+/// # use pf_papers::statistics::wilson;
+/// let [low, high] = wilson(0, 20);
+/// assert!(low == 0.0 && (high - 0.161).abs() < 0.001);
+/// let [low, high] = wilson(20, 20);
+/// assert!((low - 0.839).abs() < 0.001 && high == 1.0);
+/// ```
+#[must_use]
+pub fn wilson(hits: u32, runs: u32) -> [f64; 2] {
+    const Z: f64 = 1.959_963_984_540_054;
+    if runs == 0 {
+        return [0.0, 1.0];
+    }
+    let n = f64::from(runs);
+    let p = f64::from(hits) / n;
+    let centre = p + Z * Z / (2.0 * n);
+    let half = Z * (p * (1.0 - p) / n + Z * Z / (4.0 * n * n)).sqrt();
+    let scale = 1.0 + Z * Z / n;
+    let low = if hits == 0 {
+        0.0
+    } else {
+        (centre - half) / scale
+    };
+    let high = if hits == runs {
+        1.0
+    } else {
+        (centre + half) / scale
+    };
+    [low, high]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quartiles_lie_between_values() {
+        let spread = Spread::of([4.0, 1.0, 3.0, 2.0]).unwrap();
+        let all = [
+            spread.least,
+            spread.q1,
+            spread.median,
+            spread.q3,
+            spread.most,
+        ];
+        assert_eq!(
+            all.map(|x| (x * 100.0).round().to_string()),
+            ["100", "175", "250", "325", "400"]
+        );
+        assert_eq!(Spread::of([]), None);
+    }
+}

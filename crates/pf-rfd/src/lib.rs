@@ -1,0 +1,12 @@
+#![doc = include_str!("../README.md")]
+
+mod bed;
+mod exact;
+mod exp2;
+mod params;
+mod river;
+mod stochastic;
+
+pub use exact::{RfdExact, RfdExactParams};
+pub use params::{Pull, RfdParams, RfdStarParams, Slope, Toll};
+pub use stochastic::{Rfd, RfdStar};
