@@ -329,10 +329,19 @@ fn add(sum: Lanes, lambda: f64, gradient: &mut [f64]) -> f64 {
     lambda * sum.value.reduce_add()
 }
 
-/// exp(-x) for x from 0 to 2.
+/// exp(-x) for x from 0 to 2: the fourth power of exp(-x/4), by its series about x = 1. A machine
+/// without fused instructions takes twice as long for the general function.
 #[inline]
 fn exp_minus(x: f64x4) -> f64x4 {
-    (-x).exp()
+    const CENTRE: f64 = 0.778_800_783_071_404_9;
+    let y = f64x4::splat(0.25) - f64x4::splat(0.25) * x;
+    let mut series = f64x4::ONE;
+    for k in (1..=11).rev() {
+        series = f64x4::ONE + y * f64x4::splat(1.0 / f64::from(k)) * series;
+    }
+    let root = series * f64x4::splat(CENTRE);
+    let square = root * root;
+    square * square
 }
 
 #[cfg(test)]

@@ -109,7 +109,7 @@ impl Published {
 
 /// Whether both ends of a problem are free.
 #[must_use]
-pub fn has_free_ends(problem: &WorldProblem) -> bool {
+pub(super) fn has_free_ends(problem: &WorldProblem) -> bool {
     [problem.start(), problem.goal()]
         .iter()
         .all(|&end| problem.is_free(end, end))
