@@ -11,6 +11,7 @@ mod grid;
 mod memory;
 mod protocol;
 mod replan;
+mod waypoints;
 mod worlds;
 
 use anyhow::Result;
@@ -34,6 +35,8 @@ enum Suite {
     Memory(memory::Args),
     /// Latency and upkeep after changes of map or query, beside a fresh A*
     Replan(replan::Args),
+    /// Waypoints by L-BFGS and by swarms, beside argmin's L-BFGS on the same loss
+    Waypoints(waypoints::Args),
     /// Kernels, shortest paths and changes among shapes, and their peers
     Worlds(worlds::Args),
 }
@@ -60,6 +63,7 @@ pub fn run(counter: Option<Counter>) -> Result<()> {
         Suite::Grid(args) => grid::run(&args, counter),
         Suite::Memory(args) => memory::run(&args),
         Suite::Replan(args) => replan::run(&args),
+        Suite::Waypoints(args) => waypoints::run(&args),
         Suite::Worlds(args) => worlds::run(&args),
     }
 }

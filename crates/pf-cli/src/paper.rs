@@ -4,8 +4,10 @@ use crate::failure::{Failure, Status};
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
 use pf_papers::{
-    PaperError,
+    PaperError, faustino, kim,
+    page::{Figure, write_report},
     redlarski::{self, tune},
+    row::{Row, tables},
 };
 use serde::Serialize;
 use std::{
@@ -23,10 +25,43 @@ pub(crate) struct Args {
 
 #[derive(clap::Subcommand)]
 enum Paper {
+    /// Waypoints by L-BFGS on three maps, cold and warm
+    Kim(KimArgs),
+    /// Swarms of waypoints round one obstacle
+    Faustino(FaustinoArgs),
     /// Rivers and ants on nine grids: five tables
     Redlarski(RedlarskiArgs),
     /// Search parameters for RFD* on made-up maps, and check them on the paper's nine
     RedlarskiTune(TuneArgs),
+}
+
+#[derive(clap::Args)]
+struct KimArgs {
+    /// Runs of each case, as chance has its part in some
+    #[arg(long, value_name = "N", default_value_t = 20, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(clap::Args)]
+struct FaustinoArgs {
+    /// Scenes for each format of obstacle and number of particles, besides the paper's 240 runs
+    #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    #[command(flatten)]
+    output: Output,
+}
+
+/// What becomes of the numbers.
+#[derive(clap::Args)]
+struct Output {
+    /// One object per table row, one a line
+    #[arg(long)]
+    json: bool,
+    /// Write figures and a report into this folder
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
 }
 
 #[derive(clap::Args)]
@@ -73,6 +108,8 @@ struct RedlarskiArgs {
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
     let done = match &args.paper {
+        Paper::Kim(args) => act_kim(args, cancel),
+        Paper::Faustino(args) => act_faustino(args, cancel),
         Paper::Redlarski(args) => act_redlarski(args, cancel),
         Paper::RedlarskiTune(args) => act_tune(args, cancel),
     };
@@ -99,6 +136,57 @@ impl From<PaperError> for Stopped {
 impl<E: Into<Failure>> From<E> for Stopped {
     fn from(error: E) -> Self {
         Self::Failure(error.into())
+    }
+}
+
+fn act_kim(args: &KimArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    let published = kim::Published::read()?;
+    let options = kim::Options {
+        runs: args.runs,
+        cancel: cancel.clone(),
+    };
+    let bar = bar();
+    let rows = kim::run(&published, &options, &mut |done, all, what| {
+        tell(&bar, done, all, what);
+    });
+    bar.finish_and_clear();
+    let rows = rows?;
+    let title = "Waypoints by L-BFGS";
+    args.output
+        .put(title, &rows, || kim::figures(&published, &rows))
+}
+
+fn act_faustino(args: &FaustinoArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    let options = faustino::Options {
+        scenes: args.runs,
+        cancel: cancel.clone(),
+    };
+    let bar = bar();
+    let rows = faustino::run(&options, &mut |done, all, what| {
+        tell(&bar, done, all, what);
+    });
+    bar.finish_and_clear();
+    args.output
+        .put("Swarms of waypoints", &rows?, faustino::figures)
+}
+
+impl Output {
+    fn put(
+        &self,
+        title: &str,
+        rows: &[Row],
+        figures: impl FnOnce() -> Result<Vec<Figure>, PaperError>,
+    ) -> Result<(), Stopped> {
+        if let Some(folder) = &self.report {
+            write_report(folder, title, rows, &figures()?)?;
+        }
+        let mut out = stdout().lock();
+        if self.json {
+            json(&mut out, rows)?;
+        } else {
+            write!(out, "{}", tables(rows))?;
+        }
+        Ok(())
     }
 }
 

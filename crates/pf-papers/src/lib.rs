@@ -4,7 +4,12 @@
 //! whether it was reproduced, and draws the paper's figures. What it finds, and what the paper leaves
 //! open, stands in `docs/papers/`.
 
+pub mod faustino;
+pub mod kim;
+pub mod page;
+mod plot;
 pub mod redlarski;
+pub mod row;
 pub mod statistics;
 
 /// Why an experiment could not be run or reported.

@@ -8,6 +8,8 @@ use pf_classic::{
 };
 use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
+use pf_lbfgs::{Lbfgs, LbfgsParams};
+use pf_pso::{Pso, PsoParams};
 use pf_rfd::{Rfd, RfdExact, RfdExactParams, RfdParams, RfdStar, RfdStarParams};
 
 static GRID: &[Entry<GridProblem>] = &[
@@ -23,6 +25,8 @@ static GRID: &[Entry<GridProblem>] = &[
 
 static WORLD: &[Entry<WorldProblem>] = &[
     entry!(replans "visibility-graph", VisibilityGraph, VisibilityGraphParams, "Lozano-Perez, Wesley 1979; Liu, Arimoto 1992"),
+    entry!(replans "pso", Pso, PsoParams, "Waypoint-Based Path Planning for Autonomous Robots with PSO"),
+    entry!(replans "lbfgs", Lbfgs, LbfgsParams, "Real-Time Pathfinding in Dynamic Open World Conditions via L-BFGS Optimization"),
 ];
 
 /// The planners on grids, each as a replanner; those that only plan start over
