@@ -1,5 +1,4 @@
 //! Scenes with one obstacle, odd questions, and swarms that are kept.
-#![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
 use pf_conformance::world::quadrant_scene;
 use pf_core::{Context, Outcome, Planner, Problem, Replanner};
