@@ -312,15 +312,18 @@ impl Exact {
         };
         let mut steps = 0;
         if job.params.obstacles == Obstacles::Potential {
-            let lambda = job.params.lambda_obs;
-            let mut loss = Weighted {
-                potential: job.potential,
-                lambda,
-            };
-            let (taken, _) = self.newton.minimise(&mut loss, &mut self.path, limits, cx);
-            steps += taken;
-            if self.passes(job) {
-                return Some(steps);
+            let mut lambda = job.params.lambda_obs;
+            for _ in 0..=RAISES {
+                let mut loss = Weighted {
+                    potential: job.potential,
+                    lambda,
+                };
+                let (taken, _) = self.newton.minimise(&mut loss, &mut self.path, limits, cx);
+                steps += taken;
+                if self.passes(job) {
+                    return Some(steps);
+                }
+                lambda *= 2.0;
             }
         }
         let mut weight = WEIGHT;

@@ -6,7 +6,7 @@ use crate::{
 };
 use pf_io::write_whole;
 use pf_render::png_of;
-use std::{fs, io, path::Path};
+use std::{fmt::Write, fs, io, path::Path};
 
 /// A picture with a file's name, as SVG.
 #[derive(Clone, Debug)]
@@ -48,7 +48,7 @@ pub fn write_report(
     for figure in figures {
         put(&format!("{}.svg", figure.name), figure.svg.as_bytes())?;
         put(&format!("{}.png", figure.name), &png_of(&figure.svg)?)?;
-        page.push_str(&format!("<h3>{}</h3>\n{}\n", figure.title, figure.svg));
+        let _ = write!(page, "<h3>{}</h3>\n{}\n", figure.title, figure.svg);
     }
     page.push_str("</body></html>\n");
     put("report.html", page.as_bytes())?;

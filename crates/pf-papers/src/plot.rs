@@ -102,7 +102,11 @@ pub(crate) fn contours(
         ];
         [0, 1].map(|k| min[k] + (max[k] - min[k]) * share[k])
     };
-    let band = |i: u32, j: u32| (height(at(i, j)) / most * 8.0).clamp(0.0, 7.99);
+    // Nothing at all is below the first band.
+    let band = |i: u32, j: u32| match height(at(i, j)) / most * 8.0 {
+        h if h > 0.0 => h.min(7.99),
+        _ => -1.0,
+    };
     for j in 0..SIDE {
         let mut from = 0;
         // Equal neighbours are one rectangle.
@@ -113,7 +117,7 @@ pub(crate) fn contours(
             }
             let light = 97.0 - 8.0 * here;
             let y = 40.0 + size - f64::from(j + 1) * cell;
-            if band(from, j) > 0.0 {
+            if here >= 0.0 {
                 let _ = write!(
                     svg,
                     r#"<rect x="{:.2}" y="{y:.2}" width="{:.2}" height="{:.2}" fill="hsl(215 80% {light:.0}%)"/>"#,

@@ -3,8 +3,9 @@
 use comfy_table::{CellAlignment, Table, presets};
 use serde::Serialize;
 use serde_json::{Map, Value};
+use std::fmt::Write;
 
-/// Numbers by name, in the order they were given.
+/// Numbers by name, in the order of their names.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
 #[serde(transparent)]
 pub struct Numbers(Map<String, Value>);
@@ -63,7 +64,7 @@ pub struct Row {
 pub fn tables(rows: &[Row]) -> String {
     let mut text = String::new();
     for (name, rows) in by_table(rows) {
-        text.push_str(&format!("{name}\n{}\n\n", table(&rows)));
+        let _ = write!(text, "{name}\n{}\n\n", table(&rows));
     }
     text
 }
@@ -72,7 +73,7 @@ pub fn tables(rows: &[Row]) -> String {
 pub(crate) fn html(rows: &[Row]) -> String {
     let mut page = String::new();
     for (name, rows) in by_table(rows) {
-        page.push_str(&format!("<h2>{name}</h2>\n<table>"));
+        let _ = write!(page, "<h2>{name}</h2>\n<table>");
         let (heads, cells) = grid(&rows);
         let cell = |tag: &str, text: &String| format!("<{tag}>{text}</{tag}>");
         let line = |tag: &'static str, row: &[String]| {

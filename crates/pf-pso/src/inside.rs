@@ -131,14 +131,14 @@ mod tests {
                 let within = |k: &u32| {
                     shape.distance_to_point(segment.at((f64::from(*k) + 0.5) / 4000.0)) <= reach
                 };
-                let share =
+                let part =
                     f64::from(u32::try_from((0..4000).filter(within).count()).unwrap()) / 4000.0;
                 let found = length_inside(shape, &segment, reach) / segment.length();
                 assert!(
-                    (share - found).abs() < 2e-3,
-                    "{shape:?} {segment:?} {reach}: {share} {found}"
+                    (part - found).abs() < 2e-3,
+                    "{shape:?} {segment:?} {reach}: {part} {found}"
                 );
-                inside += usize::from(share > 0.0);
+                inside += usize::from(part > 0.0);
             }
         }
         assert!(inside > 1000);

@@ -112,7 +112,9 @@ fn runs(
         let problem = scene(run.into(), round);
         let began = clock.now();
         let report = planner.plan(&problem, &mut Context::seeded(run.into()));
-        tally.micros.push((clock.now() - began).as_secs_f64() * 1e6);
+        tally
+            .micros
+            .push(clock.now().saturating_sub(began).as_secs_f64() * 1e6);
         let report = report.map_err(|error| broken(&error))?;
         if let Some(ended) = planner.ended() {
             tally.fitness.push(ended.fitness);

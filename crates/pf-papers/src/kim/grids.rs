@@ -51,7 +51,7 @@ fn least_micros(mut plan: impl FnMut() -> Result<bool, PaperError>) -> Result<f6
     for _ in 0..10 {
         let began = clock.now();
         plan()?;
-        least = least.min((clock.now() - began).as_secs_f64() * 1e6);
+        least = least.min(clock.now().saturating_sub(began).as_secs_f64() * 1e6);
     }
     Ok(least)
 }

@@ -117,7 +117,7 @@ fn story(
             let revision = problem.revise(&changes).map_err(broken)?;
             let began = clock.now();
             let report = planner.replan(&revision, &mut Context::seeded(seed));
-            let micros = (clock.now() - began).as_secs_f64() * 1e6;
+            let micros = clock.now().saturating_sub(began).as_secs_f64() * 1e6;
             let report = report.map_err(broken)?;
             runs.extend(Run::of(&queried, &planner, &report, micros).map(|run| (query, true, run)));
         }
@@ -127,7 +127,7 @@ fn story(
             .map_err(broken)?;
         let began = clock.now();
         let report = cold.plan(&queried, &mut Context::seeded(seed));
-        let micros = (clock.now() - began).as_secs_f64() * 1e6;
+        let micros = clock.now().saturating_sub(began).as_secs_f64() * 1e6;
         let report = report.map_err(broken)?;
         runs.extend(Run::of(&queried, &cold, &report, micros).map(|run| (query, false, run)));
         if !warm {

@@ -1,0 +1,98 @@
+//! Scenes with one obstacle, odd questions, and swarms that are kept.
+
+use pf_conformance::world::quadrant_scene;
+use pf_core::{Context, Outcome, Planner, Problem, Replanner};
+use pf_geom::{Point, Vector, WorldChange, WorldProblem};
+use pf_pso::{Pso, PsoParams};
+
+#[test]
+fn twenty_particles_find_a_way_nearly_always() {
+    for params in [PsoParams::default(), PsoParams::paper()] {
+        for round in [true, false] {
+            let mut planner = Pso::new(params.clone()).unwrap();
+            let mut solved = 0;
+            for seed in 0..100 {
+                let problem = quadrant_scene(200_000 + seed, round, seed / 10);
+                let report = planner.plan(&problem, &mut Context::seeded(seed)).unwrap();
+                solved += u32::from(report.outcome.solved().is_some());
+            }
+            assert!(solved >= 98, "{solved} of 100");
+        }
+    }
+}
+
+#[test]
+fn a_kept_swarm_follows_the_goal() {
+    let mut problem = quadrant_scene(1, true, 0);
+    let mut planner = Pso::default();
+    planner.plan(&problem, &mut Context::seeded(1)).unwrap();
+    for _ in 0..10 {
+        let goal = problem.goal() - Vector::new(0.05, 0.02);
+        let changes = [WorldChange::GoalMoved(goal)];
+        let revision = problem.revise(&changes).unwrap();
+        let report = planner.replan(&revision, &mut Context::seeded(1)).unwrap();
+        assert_eq!(report.note("replanned"), Some("repaired"));
+        assert!(report.outcome.solved().is_some());
+    }
+}
+
+#[test]
+fn odd_questions_get_honest_answers() {
+    let scene = quadrant_scene(1, true, 0);
+    let world = scene.shared_world();
+    let ask = |params: PsoParams, start: Point, goal: Point| {
+        let problem = WorldProblem::new(world.clone(), 0.2, start, goal).unwrap();
+        let report = Pso::new(params)
+            .unwrap()
+            .plan(&problem, &mut Context::seeded(1))
+            .unwrap();
+        if let Some(best) = report.outcome.solved() {
+            assert!(problem.judge(&best.solution).is_ok());
+        }
+        report.outcome
+    };
+    let (min, max) = world.shape(0).unwrap().bounding_box();
+    let middle = min + (max - min) / 2.0;
+    let (start, goal) = (scene.start(), scene.goal());
+    assert!(matches!(
+        ask(PsoParams::default(), middle, goal),
+        Outcome::Infeasible
+    ));
+    assert!(matches!(
+        ask(PsoParams::default(), start, middle),
+        Outcome::Infeasible
+    ));
+    assert!(ask(PsoParams::default(), start, start).solved().is_some());
+    for (waypoints, iterations) in [(0, 150), (1, 150), (10_000, 2)] {
+        ask(
+            PsoParams {
+                waypoints,
+                iterations,
+                ..PsoParams::default()
+            },
+            start,
+            goal,
+        );
+    }
+}
+
+#[test]
+fn bad_parameters_are_named_with_value_and_range() {
+    let refused = |params: PsoParams| Pso::new(params).map(|_| ()).unwrap_err().to_string();
+    let params = PsoParams {
+        particles: 0,
+        ..PsoParams::default()
+    };
+    assert_eq!(
+        refused(params),
+        "parameter `particles`: `0` is not a whole number from 1 to 1000000"
+    );
+    let params = PsoParams {
+        clearance: f64::NAN,
+        ..PsoParams::default()
+    };
+    assert_eq!(
+        refused(params),
+        "parameter `clearance`: `NaN` is not a number from 0"
+    );
+}
