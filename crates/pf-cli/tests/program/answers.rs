@@ -265,7 +265,8 @@ fn planners_are_listed() {
         .collect();
     assert!(names.starts_with(&["dijkstra", "astar", "d-star-lite"]));
     for object in &objects {
-        let in_worlds = object["name"] == "visibility-graph";
+        let in_worlds =
+            ["visibility-graph", "pso", "lbfgs"].contains(&object["name"].as_str().unwrap());
         assert_eq!(object["problem"], if in_worlds { "world" } else { "grid" });
         assert!(object["claims"].is_array() && object["paper"].is_string());
     }

@@ -2,7 +2,7 @@
 
 use crate::{
     map,
-    worlds::{ROOMS, has_note, list, number, one, plan, planners_in, world},
+    worlds::{ROOMS, complete_in, has_note, list, number, one, plan, planners_in, world},
 };
 use serde_json::json;
 
@@ -16,7 +16,7 @@ fn planners_on_grids_find_it_over_cells_and_prove_nothing() {
     let folder = world(ROOMS);
     let file = folder.name("w.toml");
     let shortest = number(&one(&plan(&file, &[]).ends(0)), "length");
-    for (planner, _) in planners_in("grid") {
+    for (planner, _) in complete_in("grid") {
         let object = one(&plan(&file, &["--planner", &planner]).ends(0));
         assert_eq!(object["outcome"], "feasible", "{planner}");
         assert_eq!(object["problem"], "world");
@@ -75,7 +75,7 @@ fn who_proves_that_there_is_no_way_proves_it_of_its_own_problem() {
             assert_eq!(one(&run.ends(5))["outcome"], "unknown");
         }
     }
-    for (planner, _) in planners_in("grid") {
+    for (planner, _) in complete_in("grid") {
         let object = one(&plan(&file, &["--planner", &planner]).ends(5));
         assert_eq!(object["outcome"], "unknown");
         has_note(&object, "unproved: ", "a planner in worlds can tell");
@@ -105,7 +105,7 @@ const HALL: &str = "
 #[test]
 fn planners_in_worlds_go_straight_on_grids_and_prove_nothing() {
     let (hall, parted) = (map(HALL), map("...#... ...#... ...#..."));
-    for (planner, _) in planners_in("world") {
+    for (planner, claims) in complete_in("world") {
         let ends = ["--from", "0,0", "--to", "9,0", "--radius", "0.4"];
         let more = [&ends[..], &["--planner", &planner]].concat();
         let file = hall.name("m.map");
@@ -115,11 +115,11 @@ fn planners_in_worlds_go_straight_on_grids_and_prove_nothing() {
             (&json!("grid"), &json!("feasible"))
         );
         has_note(&straight, "converted: ", "a world of 2 rectangles");
-        has_note(
-            &straight,
-            "unproved: ",
-            "not proved to be the best of the map",
-        );
+        // What was no proof in the world needs no word about the map.
+        if claims.iter().any(|claim| claim == "optimal") {
+            let words = "not proved to be the best of the map";
+            has_note(&straight, "unproved: ", words);
+        }
         let path = list(&straight["path"]);
         assert_eq!(
             (&path[0], path.last()),
@@ -133,5 +133,24 @@ fn planners_in_worlds_go_straight_on_grids_and_prove_nothing() {
         let object = one(&plan(&parted.name("m.map"), &more).ends(5));
         assert_eq!(object["outcome"], "unknown");
         has_note(&object, "unproved: ", "a planner on grids can tell");
+    }
+}
+
+/// Who promises no path still says so honestly: a path that was marked, or none.
+#[test]
+fn planners_that_promise_nothing_prove_nothing() {
+    let folder = world(ROOMS);
+    let file = folder.name("w.toml");
+    for problem in ["grid", "world"] {
+        for (planner, claims) in planners_in(problem) {
+            if claims.iter().any(|claim| claim == "complete") {
+                continue;
+            }
+            let run = plan(&file, &["--planner", &planner, "--iterations", "20"]);
+            let object = one(&run);
+            let word = object["outcome"].as_str().expect("a word");
+            assert!(["feasible", "unknown"].contains(&word), "{planner}: {word}");
+            assert_eq!(run.code, if word == "feasible" { 0 } else { 5 });
+        }
     }
 }
