@@ -472,20 +472,15 @@ mod tests {
             .go(layout.id(from), |id| way.push(layout.cell(id)));
         assert_eq!((layout.cell(end), way.len()), (root, 9));
         assert!(problem.judge(&way).is_ok());
-        problem
-            .apply(&[GridChange::Blocked(vec![way[3]])])
-            .unwrap();
+        problem.apply(&[GridChange::Blocked(vec![way[3]])]).unwrap();
         let end = field.downhill(&problem).go(layout.id(from), |_| {});
         assert_eq!(layout.cell(end), way[2]);
     }
 
     #[test]
     fn a_blocked_root_is_alone() {
-        let problem = GridProblem::new(
-            Grid::parse("#.").unwrap(),
-            Cell::new(0, 0),
-            Cell::new(1, 0),
-        );
+        let problem =
+            GridProblem::new(Grid::parse("#.").unwrap(), Cell::new(0, 0), Cell::new(1, 0));
         let problem = problem.unwrap();
         let values = swept(&problem, Cell::new(0, 0));
         let layout = problem.grid().layout();

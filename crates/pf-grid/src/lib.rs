@@ -49,7 +49,7 @@ pub use cell::Cell;
 pub use clearance::Clearance;
 pub use cost::GridCost;
 pub use damage::{Bound, Damage};
-pub use distances::{Distances, Downhill, Swept, Sweeper};
+pub use distances::{Distances, Downhill, Sweeper, Swept};
 pub use drive::{Advance, Arrival, Drive, Travel};
 pub use exact::{ExactSearch, Found};
 pub use field::{DistanceField, Upkeep};
