@@ -1,6 +1,9 @@
 //! Two fields, what changed since they were exact, and answers from both.
 
-use super::{marks::Marks, patch::Patch};
+use super::{
+    marks::Marks,
+    patch::{Patch, Sight},
+};
 use pf_core::{Context, Problem};
 use pf_grid::{
     Cell, Damage, Distances, End, GridChange, GridProblem, Layout, Search, Sweeper, Swept, Weights,
@@ -451,30 +454,19 @@ impl<W: Word> Basin<W> {
         intact: Option<Way<W>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<(Found, How)> {
-        let best = intact.map(|way| way.whole);
         let [starts, goals] = [&self.sides[to_start.side], &self.sides[to_goal.side]];
-        let log = &self.log[starts.since..];
-        let weights = goals.field.basis()?.1;
-        let ends = [to_start.root, to_goal.root];
-        let patch = &mut self.patch;
-        if !patch.look(
+        let sight = Sight {
             problem,
-            log,
-            weights,
-            [&starts.field, &goals.field],
-            best.unwrap_or(W::MAX),
-            ends,
-        ) {
+            weights: goals.field.basis()?.1,
+            sides: [starts, goals],
+            ends: [to_start.root, to_goal.root],
+            best: intact.map_or(W::MAX, |way| way.whole),
+        };
+        if !self.patch.look(&sight, &self.log[starts.since..]) {
             return None;
         }
-        let end = patch.search(
-            problem,
-            goals,
-            best.unwrap_or(W::LIMIT),
-            &mut self.search,
-            (&mut self.marks, to_goal.root),
-            cx,
-        );
+        let (search, marks) = (&mut self.search, &mut self.marks);
+        let end = self.patch.search(&sight, search, marks, cx);
         match end {
             End::Cut => Some((Found::Cut, How::Patched)),
             End::TooFar => Some((Found::TooFar, How::Patched)),
