@@ -3,7 +3,7 @@
 use anyhow::{Context as _, Result, anyhow};
 use pf_core::{Outcome, Report};
 use pf_grid::{GridCost, GridProblem};
-use pf_planners::{AnyEntry as _, Entry, grid_planners};
+use pf_planners::{AnyEntry, Entry, grid_planners};
 
 /// The baseline: every answer is compared with its, and every time.
 pub(crate) const FRESH: &str = "astar";
@@ -11,8 +11,7 @@ pub(crate) const FRESH: &str = "astar";
 /// Which planners answer beside the fresh A*.
 #[derive(clap::Args)]
 pub(crate) struct Repairers {
-    /// Which planners answer beside the fresh A*; without a word all that replan and prove what they
-    /// find
+    /// Which planners answer beside the fresh A*; without a word all that repair and prove
     #[arg(long, value_name = "NAME")]
     planner: Vec<String>,
     /// Set a parameter of these planners
@@ -42,9 +41,7 @@ impl Repairers {
         }];
         let mut asked = Vec::new();
         if self.planner.is_empty() {
-            // Swarms take minutes on maps of this size, and prove nothing.
-            let proves = |entry: &&Entry<_>| entry.replans() && entry.claims().optimal;
-            asked.extend(grid_planners().filter(proves));
+            asked.extend(grid_planners().filter(|entry| entry.replans() && entry.claims().optimal));
         }
         for name in &self.planner {
             asked.push(entry(name)?);

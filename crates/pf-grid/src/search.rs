@@ -84,43 +84,68 @@ impl<W: Word> Search<W> {
         arrive: impl FnMut(u32, W) -> Option<W>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
+        let start = problem.grid().layout().id(start);
+        let seeds = [(start, W::default())];
+        self.run_from(problem, &seeds, W::LIMIT, heuristic, arrive, cx)
+    }
+
+    /// The same from several ids, each with its weight to begin with, for a path that weighs less
+    /// than `bound`: [`End::Exhausted`] means that there is none. Blocked seeds do not count.
+    pub fn run_from(
+        &mut self,
+        problem: &GridProblem,
+        seeds: &[(u32, W)],
+        bound: W,
+        heuristic: impl Fn(u32) -> Option<W>,
+        arrive: impl FnMut(u32, W) -> Option<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
         let grid = problem.grid();
         let weights = Weights::of(grid);
         let moves = problem.moves();
         self.begin(grid.layout());
-        if !grid.is_free(start) {
-            return End::Exhausted;
-        }
         let layout = grid.layout();
-        let start = layout.id(start);
-        let Some(first) = heuristic(start) else {
+        let key = |&(id, g): &(u32, W)| {
+            let least = grid.is_free_id(id).then(|| heuristic(id))??;
+            Some(g + least)
+        };
+        let Some(first) = seeds.iter().filter_map(key).min() else {
             return End::Exhausted;
         };
-        // One step changes the key by its weight and the heuristic by no more than that.
+        // One step changes the key by its weight and the heuristic by no more than that. Where seeds
+        // lie further apart than the list is wide, some are looked at early, which is no harm.
         let reach = weights.reach();
 
         self.open.reset(first, reach, weights.shift::<W>());
-        self.records[start as usize] = Record {
-            g: W::default(),
-            generation: self.generation,
-            arrivals: 0,
-            closed: false,
-        };
-        self.open.push(first, start, W::default());
+        for seed in seeds {
+            let &(id, g) = seed;
+            let known = self.weight(id);
+            if let Some(key) = key(seed)
+                && known.is_none_or(|known| g < known)
+            {
+                self.records[id as usize] = Record {
+                    g,
+                    generation: self.generation,
+                    arrivals: 0,
+                    closed: false,
+                };
+                self.open.push(key, id, g);
+            }
+        }
         if weights.is_uniform() {
             let pruned = Pruned {
                 grid,
                 moves,
                 successors: successors(moves),
             };
-            self.search(layout, heuristic, arrive, &pruned, cx)
+            self.search(layout, bound, heuristic, arrive, &pruned, cx)
         } else {
             let weighed = Weighed {
                 grid,
                 moves,
                 weights,
             };
-            self.search(layout, heuristic, arrive, &weighed, cx)
+            self.search(layout, bound, heuristic, arrive, &weighed, cx)
         }
     }
 
@@ -141,6 +166,7 @@ impl<W: Word> Search<W> {
     fn search<S: Steps<W>>(
         &mut self,
         layout: &Layout,
+        most: W,
         heuristic: impl Fn(u32) -> Option<W>,
         mut arrive: impl FnMut(u32, W) -> Option<W>,
         steps: &S,
@@ -149,7 +175,7 @@ impl<W: Word> Search<W> {
         let offsets = layout.offsets();
         let generation = self.generation;
         // No path as heavy as this is of interest, first for exactness, then for being no better.
-        let mut bound = W::LIMIT;
+        let mut bound = most;
         let mut beyond = false;
         while let Some((id, g)) = self.open.pop(bound) {
             let record = &mut self.records[id as usize];
@@ -185,6 +211,10 @@ impl<W: Word> Search<W> {
                     if next_g > known || record.arrivals & arrival != 0 || !S::CANONICAL {
                         continue;
                     }
+                    // From where the search began all successors are due already.
+                    if record.arrivals == 0 {
+                        continue;
+                    }
                     // As good as the best, from elsewhere: other successors may be due.
                     record.arrivals |= arrival;
                     if !record.closed {
@@ -210,9 +240,9 @@ impl<W: Word> Search<W> {
                 }
             }
         }
-        if bound < W::LIMIT {
+        if bound < most {
             End::Goal(bound)
-        } else if beyond {
+        } else if beyond && most == W::LIMIT {
             End::TooFar
         } else {
             End::Exhausted

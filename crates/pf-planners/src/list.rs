@@ -10,7 +10,9 @@ use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
 use pf_lbfgs::{Lbfgs, LbfgsParams};
 use pf_pso::{Pso, PsoParams};
-use pf_rfd::{Rfd, RfdExact, RfdExactParams, RfdParams, RfdStar, RfdStarParams};
+use pf_rfd::{
+    Rfd, RfdExact, RfdExactParams, RfdField, RfdFieldParams, RfdParams, RfdStar, RfdStarParams,
+};
 
 static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
@@ -19,6 +21,7 @@ static GRID: &[Entry<GridProblem>] = &[
     entry!(replans "rfd", Rfd, RfdParams, "Rabanal, Rodriguez, Rubio 2007; Redlarski, Dabkowski, Palkowski"),
     entry!(replans "rfd-star", RfdStar, RfdStarParams, "Redlarski, Dabkowski, Palkowski"),
     entry!(replans "rfd-exact", RfdExact, RfdExactParams, "after Korf 1990; Koenig, Likhachev 2006"),
+    entry!(replans "rfd-field", RfdField, RfdFieldParams, "after Redlarski, Dabkowski, Palkowski; Ramalingam, Reps 1996"),
     entry!(replans "aco", Aco, AcoParams, "Dorigo, Maniezzo, Colorni 1996"),
     entry!(replans "aco-star", AcoStar, AcoStarParams, "Redlarski, Dabkowski, Palkowski"),
 ];
