@@ -1,6 +1,6 @@
 //! All planners on grids say the same, a million times.
 
-use pf_classic::{AStar, DStarLite, Dijkstra, Jps};
+use pf_classic::{AStar, Auto, DStarLite, Dijkstra, Jps};
 use pf_conformance::{
     grid::{Recipe, drawing, random_batch, random_problem},
     seeded,
@@ -42,7 +42,7 @@ fn a_million_small_queries() {
         let mut problem = random_problem(&mut rng, &recipe);
         let mut repaired = DStarLite::default();
         repaired.plan(&problem, &mut Context::seeded(0)).unwrap();
-        let mut jumps = Jps::default();
+        let (mut jumps, mut auto) = (Jps::default(), Auto::default());
         for query in 0..QUERIES {
             let grid = problem.grid();
             let (width, height) = (grid.width(), grid.height());
@@ -71,6 +71,13 @@ fn a_million_small_queries() {
                 all[0] != Said::Nothing && all[0] == all[1] && all[1] == all[2],
                 "map {map}, query {query}: D* Lite, A*, Dijkstra say {all:?} on\n{}",
                 drawing(&problem)
+            );
+            let chosen = auto.replan(&revision, &mut cx()).unwrap();
+            assert_eq!(
+                said(&chosen),
+                all[1],
+                "map {map}, query {query}: {:?}",
+                chosen.note("search")
             );
             match jumps.replan(&revision, &mut cx()) {
                 Ok(report) => {

@@ -1,6 +1,6 @@
 //! Every law that binds them.
 
-use pf_classic::{AStar, DStarLite, Dijkstra, Jps, VisibilityGraph};
+use pf_classic::{AStar, Auto, DStarLite, Dijkstra, Jps, VisibilityGraph};
 use pf_conformance::{grid, world};
 use pf_core::FromScratch;
 
@@ -22,6 +22,11 @@ fn d_star_lite_keeps_the_laws() {
 #[test]
 fn jump_point_search_keeps_the_laws() {
     grid::check_replanner(Jps::default);
+}
+
+#[test]
+fn the_choice_keeps_the_laws() {
+    grid::check_replanner(Auto::default);
 }
 
 #[test]

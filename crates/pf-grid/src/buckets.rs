@@ -16,6 +16,8 @@ pub struct Buckets<W> {
     shift: u32,
     /// The bucket popped from, counted from key 0.
     current: u64,
+    /// No bucket above it holds anything.
+    last: u64,
     len: usize,
 }
 
@@ -26,11 +28,15 @@ impl<W: Word> Buckets<W> {
         let needed = (reach.bucket(shift) + 2).next_power_of_two();
         let needed = usize::try_from(needed).unwrap_or(usize::MAX);
         if self.len > 0 {
-            self.ring.iter_mut().for_each(Vec::clear);
+            for bucket in self.current..=self.last {
+                let slot = self.slot(bucket);
+                self.ring[slot].clear();
+            }
         }
         self.ring.resize_with(needed, Vec::new);
         self.shift = shift;
         self.current = first.bucket(shift);
+        self.last = self.current;
         self.len = 0;
     }
 
@@ -50,7 +56,9 @@ impl<W: Word> Buckets<W> {
     /// next.
     #[inline]
     pub fn push(&mut self, key: W, id: u32, value: W) {
-        let slot = self.slot(key.bucket(self.shift).max(self.current));
+        let bucket = key.bucket(self.shift).max(self.current);
+        self.last = self.last.max(bucket);
+        let slot = self.slot(bucket);
         self.ring[slot].push((id, value));
         self.len += 1;
     }

@@ -42,6 +42,9 @@ pub(super) const RULES: [Moves; 2] = [Moves::OnlyWhenNoObstacles, Moves::Always]
 
 const JUMPING: &str = "grid_pathfinding::jps";
 
+/// Who of ours answers beside it.
+const JUMPS: &str = "jps";
+
 const PEERS: [&str; 4] = [
     "pathfinding::astar",
     "pathfinding::dijkstra",
@@ -100,7 +103,11 @@ impl Asked {
                 contenders.push(Box::new(Petgraph::of(grid, moves)));
             }
         } else if moves == Moves::Always && asked(JUMPING) {
-            contenders = vec![ours(entry(FRESH)?)?, Box::new(Jumping::of(grid))];
+            contenders = vec![ours(entry(FRESH)?)?];
+            if asked(JUMPS) {
+                contenders.push(ours(entry(JUMPS)?)?);
+            }
+            contenders.push(Box::new(Jumping::of(grid)));
         }
         Ok(Group { moves, contenders })
     }

@@ -155,6 +155,16 @@ impl JumpMap {
         }
     }
 
+    /// At how many free cells scans stop, counted once for each straight direction.
+    pub(super) fn turns(&self, grid: &Grid) -> u64 {
+        let stops = self.stops.iter().map(|bits| {
+            let set: u64 = bits.iter().map(|word| u64::from(word.count_ones())).sum();
+            // All that is not free is set, and what follows the last place.
+            set + u64::from(grid.free_cells()) - bits.len() as u64 * 64
+        });
+        stops.sum()
+    }
+
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         let words: usize = self.stops.iter().map(Vec::capacity).sum();

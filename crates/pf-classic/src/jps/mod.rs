@@ -72,6 +72,20 @@ impl Jps {
         Ok(Self::default())
     }
 
+    /// How often straight runs would have to stop at the free cells of a problem's grid, counted once
+    /// for each straight direction: what makes jump points few or many.
+    pub(crate) fn turns(&mut self, problem: &GridProblem) -> u64 {
+        self.look_at(problem);
+        self.map.turns(problem.grid())
+    }
+
+    fn look_at(&mut self, problem: &GridProblem) {
+        if !self.map.is_of(problem.grid(), problem.moves()) {
+            self.map.make(problem.grid(), problem.moves());
+        }
+        self.known = Some(problem.stamp());
+    }
+
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -108,10 +122,7 @@ impl Planner<GridProblem> for Jps {
         if !grid.is_free(problem.start()) || !grid.is_free(problem.goal()) {
             return Ok(cx.report(Outcome::Infeasible));
         }
-        if !self.map.is_of(grid, problem.moves()) {
-            self.map.make(grid, problem.moves());
-        }
-        self.known = Some(problem.stamp());
+        self.look_at(problem);
         if self.layout != Some(*grid.layout()) {
             self.layout = Some(*grid.layout());
             self.width = Width::default();

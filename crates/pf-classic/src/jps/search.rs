@@ -48,6 +48,11 @@ pub(super) struct JumpSearch<W: Copy> {
 /// A ring of more buckets costs more than the order within a bucket is worth.
 const MOST_BUCKETS: u64 = 1 << 14;
 
+/// A walk along a diagonal is put off where its key is so many steps above the one it began at.
+/// Measured on made-up maps (random cells, rectangles, mazes): without, open maps take up to three
+/// times as long; with 0, mazes twice.
+const SLACK: u32 = 4;
+
 impl<W: Word> JumpSearch<W> {
     /// Searches from start to goal, both free.
     pub(super) fn run(
@@ -145,6 +150,7 @@ impl<W: Word> JumpSearch<W> {
                 arrivals &= arrivals - 1;
             }
             let place = map.place(&hunt.layout, id);
+            let enough = g + octile(id) + W::STRAIGHT.times(SLACK);
             let mut lines = ways & !hunt.fans;
             while lines != 0 {
                 let k = lines.trailing_zeros() as usize;
@@ -164,7 +170,9 @@ impl<W: Word> JumpSearch<W> {
                     from = from.step(hunt.steps[k]);
                     from_g = from_g + weight;
                     let ways = onward[k][usize::from(grid.around_id(from.id))];
-                    if from.id == hunt.goal || ways & !open != 0 {
+                    // Most of what lies that way may never be asked for: it waits as a node.
+                    let leads_away = from_g + octile(from.id) > enough;
+                    if from.id == hunt.goal || leads_away || ways & !open != 0 {
                         self.reach(from.id, from_g, k, id, bound, &octile);
                         break;
                     }
