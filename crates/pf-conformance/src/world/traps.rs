@@ -14,12 +14,14 @@ const SIDE: f64 = 50.0;
 const SPARED: f64 = 1.5;
 /// No shortest path is longer.
 const LONGEST: f64 = 100.0;
+/// A robot of this radius can go there, too: no way leads through a gap that only a point passes.
+const ROBOT: f64 = 0.25;
 
 /// The world of `seed`: a square with a side of 50, a point that is to go from near one corner of it
 /// to near the opposite one, one to three traps and up to twelve rectangles. A trap is a pocket
 /// with arms from 4 to 12 and a back from 8 to 18 wide, or a corner with walls from 8 to 18; its inside
 /// faces the start, and one at least lies on the straight line to the goal. The shortest path is at
-/// most 100 long.
+/// most 100 long, and so is that of a robot of radius 0.25.
 ///
 /// The same seed gives the same world, in this and every release until the changelog says otherwise.
 ///
@@ -37,11 +39,10 @@ pub fn trap_world(seed: u64) -> WorldProblem {
     let mut rng = seeded(seed);
     loop {
         let problem = draw(&mut rng);
-        let free = |p: Point| problem.is_free(p, p);
-        if free(problem.start())
-            && free(problem.goal())
-            && oracle(&problem).is_some_and(|best| best.length <= LONGEST)
-        {
+        let (start, goal) = (problem.start(), problem.goal());
+        let wide = WorldProblem::new(problem.shared_world(), ROBOT, start, goal);
+        let wide = wide.expect("the same ends");
+        if oracle(&wide).is_some_and(|best| best.length <= LONGEST) {
             return problem;
         }
     }
