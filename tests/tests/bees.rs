@@ -57,7 +57,6 @@ fn they_get_out_of_traps() {
     };
     let without = AbcParams {
         memory: 0.0,
-        w3: 0.0,
         ..params.clone()
     };
     let (mut with_memory, mut without_memory) = (0, 0);

@@ -9,6 +9,7 @@ use crate::{
 use pf_core::{Context, InvalidParams, LocalPlanner, PlanRng, Step};
 use pf_geom::{Observation, Point, Vector, Window, WorldProblem};
 use rand::RngExt;
+use std::collections::VecDeque;
 
 /// What is left of the memory of places where something has changed.
 const FADED: f64 = 0.25;
@@ -27,6 +28,8 @@ pub struct Colony {
     before: Memory,
     /// Changes that it has not been near since, before the walk and now.
     rumours: [Vec<(Point, Point)>; 2],
+    /// Places too recent to count as visited.
+    recent: VecDeque<Point>,
     steps: u64,
     at: Option<Point>,
     heading: Vector,
@@ -49,6 +52,7 @@ impl Colony {
             before: memory.clone(),
             memory,
             rumours: Default::default(),
+            recent: VecDeque::with_capacity(params.delay + 1),
             steps: 0,
             at: None,
             heading: Vector::zeros(),
@@ -91,7 +95,12 @@ impl Colony {
         if self.params.memory > 0.0 {
             let (memory, rumours) = (&mut self.memory, &mut self.rumours[1]);
             notice(rumours, memory, here, self.params.half);
-            memory.visit(here);
+            self.recent.push_back(here);
+            if self.recent.len() > self.params.delay
+                && let Some(place) = self.recent.pop_front()
+            {
+                memory.visit(place);
+            }
             let (low, high) = seen.room();
             memory.look(low, high);
         }
@@ -122,6 +131,7 @@ impl LocalPlanner<WorldProblem> for Colony {
         let [before, now] = &mut self.rumours;
         now.clone_from(before);
         self.memory.copy(&self.before);
+        self.recent.clear();
         self.steps = 0;
         self.at = None;
         self.heading = Vector::zeros();

@@ -11,8 +11,7 @@ const FINE: f64 = 8.0;
 /// Nodes along the side of a tile.
 const SIDE: i64 = 16;
 const TILE: usize = 16 * 16;
-/// Tiles there is room for from the first visit on: for a window that reaches 2 to each side, and
-/// cones of twice that, a world of 60 by 60.
+/// Tiles there is room for from the first visit on: for cones of radius 6, a world of 120 by 120.
 const ROOM: usize = 128;
 /// Beyond this many nodes from the origin all is one place.
 const FAR: f64 = 1e12;

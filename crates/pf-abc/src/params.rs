@@ -62,6 +62,9 @@ pub struct AbcParams {
     pub memory: f64,
     /// How far a visited place is felt, in units of `half`.
     pub reach: f64,
+    /// After how many steps a place counts as visited before. At 0 the robot shuns the place where
+    /// it is and zigzags through open ground.
+    pub delay: usize,
     /// How far it is to the goal.
     pub distance: Distance,
     /// What is bad about obstacles.
@@ -79,10 +82,11 @@ impl Default for AbcParams {
         Self {
             steps: 2000,
             memory: 2.0,
+            reach: 3.0,
+            delay: 2,
             check: Check::Segment,
             scouts: Scouts::One,
             limit: 1.0,
-            w3: 0.01,
             ..Self::paper()
         }
     }
@@ -98,6 +102,7 @@ params!(AbcParams {
     w3: f64 = "the weight of a turn, by the degree",
     memory: f64 = "the weight of places visited before; 0 is no memory",
     reach: f64 = "how far a visited place is felt, in units of half",
+    delay: usize = "after how many steps a place counts as visited before",
     distance: Distance = "euclidean or manhattan",
     f2: F2 = "push-back (near obstacles are bad) or paper-plus (far ones are)",
     check: Check = "segment (the way must be free) or point (the place alone, the paper's)",
@@ -119,7 +124,8 @@ impl AbcParams {
             w2: 0.0,
             w3: 0.0,
             memory: 0.0,
-            reach: 2.0,
+            reach: 3.0,
+            delay: 0,
             distance: Distance::Euclidean,
             f2: F2::PushBack,
             check: Check::Point,
@@ -152,6 +158,10 @@ impl AbcParams {
         if self.cycles > 100_000 {
             let expected = "a whole number from 0 to 100000";
             return refuse("cycles", self.cycles.to_string(), expected);
+        }
+        if self.delay > 1000 {
+            let expected = "a whole number from 0 to 1000";
+            return refuse("delay", self.delay.to_string(), expected);
         }
         if !(self.half > 0.0 && self.half.is_finite()) {
             return refuse("half", self.half.to_string(), "a positive number");

@@ -351,13 +351,27 @@ fn memory_fades_where_a_change_is_seen() {
         let steps = trail.windows(2).map(|pair| (pair[1] - pair[0]).norm());
         steps.sum()
     };
-    for n in [0usize,1,2,4,8,30] { for told in [false,true] { let mut colony = Colony::new(AbcParams::default()).unwrap();
-        let ch=[(Point::new(15.0,6.0),Point::new(25.0,14.0))];
-        colony.recall(&vec![Point::new(20.0, 10.0); n], if told {&ch} else {&[]});
-        let mut cx = Context::seeded(5);
-        let mut walk = Walk::begin(&mut colony, &problem);
-        while walk.step(&problem, &mut cx) == Walked::On {}
-        println!("{n} {told} {} {:?}", length(walk.trail()), walk.trail().iter().map(|p| (p.x.round(),(p.y*10.).round()/10.)).collect::<Vec<_>>()); }}
+    for n in [0usize, 1, 2, 4, 8, 30] {
+        for told in [false, true] {
+            let mut colony = Colony::new(AbcParams::default()).unwrap();
+            let ch = [(Point::new(15.0, 6.0), Point::new(25.0, 14.0))];
+            colony.recall(
+                &vec![Point::new(20.0, 10.0); n],
+                if told { &ch } else { &[] },
+            );
+            let mut cx = Context::seeded(5);
+            let mut walk = Walk::begin(&mut colony, &problem);
+            while walk.step(&problem, &mut cx) == Walked::On {}
+            println!(
+                "{n} {told} {} {:?}",
+                length(walk.trail()),
+                walk.trail()
+                    .iter()
+                    .map(|p| (p.x.round(), (p.y * 10.).round() / 10.))
+                    .collect::<Vec<_>>()
+            );
+        }
+    }
     let (short, long) = (length(&told), length(&untold));
     assert!(short < long - 2.0, "{short} {long}");
 }
