@@ -18,7 +18,7 @@ const FADED: f64 = 0.25;
 /// visited; see the [crate's page](crate). One iteration is one step.
 ///
 /// It goes to the goal once it sees a free way there. Without a free place in sight it stays, and
-/// the step counts.
+/// the step counts. It forgets its way when the goal has moved further than the window is wide.
 #[derive(Clone, Debug)]
 pub struct Colony {
     params: AbcParams,
@@ -32,6 +32,8 @@ pub struct Colony {
     recent: VecDeque<Point>,
     steps: u64,
     at: Option<Point>,
+    /// Where its memory leads.
+    goal: Option<Point>,
     heading: Vector,
     swarm: Swarm,
 }
@@ -55,6 +57,7 @@ impl Colony {
             recent: VecDeque::with_capacity(params.delay + 1),
             steps: 0,
             at: None,
+            goal: None,
             heading: Vector::zeros(),
             swarm: Swarm::default(),
             params,
@@ -86,6 +89,13 @@ impl Colony {
 
     fn arrive(&mut self, seen: &Observation) {
         let here = seen.here();
+        let goal = *self.goal.get_or_insert(seen.goal());
+        if (seen.goal() - goal).norm() > 2.0 * self.params.half {
+            // What it learnt on the way to another place is worth nothing.
+            self.memory.clear();
+            self.recent.clear();
+            self.goal = Some(seen.goal());
+        }
         if let Some(at) = self.at
             && at != here
         {
@@ -134,6 +144,7 @@ impl LocalPlanner<WorldProblem> for Colony {
         self.recent.clear();
         self.steps = 0;
         self.at = None;
+        self.goal = None;
         self.heading = Vector::zeros();
     }
 
