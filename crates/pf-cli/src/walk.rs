@@ -9,7 +9,7 @@ use crate::{
 };
 use pf_abc::{AbcParams, Colony};
 use pf_core::{CancelToken, Context, Outcome, Params, Walk, Walked as End};
-use pf_geom::{Point, WorldChange, WorldProblem};
+use pf_geom::{Point, Shape, World, WorldChange, WorldProblem};
 use pf_io::{AnyScenario, TimeUnit, load_scenario};
 use pf_planners::{Changes, Line, Scene};
 use pf_render::{Line as Pen, Picture};
@@ -38,7 +38,7 @@ pub(crate) struct Args {
     question: QuestionArgs,
     #[command(flatten)]
     planner: PlannerArgs,
-    /// Draw the way over the world as it is in the end, as SVG
+    /// Draw the way over the world as it is in the end, with what stood there before, as SVG
     #[arg(long, value_name = "FILE", help_heading = "Output")]
     svg: Option<PathBuf>,
     /// The same as PNG
@@ -87,6 +87,8 @@ struct Walked<'a> {
     notes: Vec<String>,
     /// The scene as it is in the end.
     scene: Scene,
+    /// Every obstacle wherever it stood at some time.
+    stood: Vec<Shape>,
 }
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
@@ -105,7 +107,7 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     }
     let (svg, png) = (args.svg.as_deref(), args.png.as_deref());
     if svg.is_some() || png.is_some() {
-        draw(&walked.picture(), svg, png)?;
+        draw(&walked.picture()?, svg, png)?;
     }
     match walked.end {
         End::Arrived => Ok(Status::Done),
@@ -172,11 +174,14 @@ fn walk<'a>(
     let mut events: VecDeque<&Happening> = question.events.iter().collect();
     let mut told = Vec::new();
     let mut steps: u64 = 0;
+    let mut stood = Vec::new();
+    stand(&mut stood, problem(&scene)?.world());
     let mut walk = Walk::begin(&mut colony, problem(&scene)?);
     let end = loop {
         #[expect(clippy::cast_precision_loss, reason = "a number of steps")]
         while let Some(event) = events.pop_front_if(|event| event.at <= steps as f64) {
             scene.change(&event.changes)?;
+            stand(&mut stood, problem(&scene)?.world());
             let change = words::of(&event.changes, &question.names);
             told.push(Told {
                 step: steps,
@@ -208,7 +213,17 @@ fn walk<'a>(
         told,
         notes: report.notes.iter().map(ToString::to_string).collect(),
         scene,
+        stood,
     })
+}
+
+/// Adds what stands where nothing like it has stood.
+fn stand(stood: &mut Vec<Shape>, world: &World) {
+    for (_, shape) in world.shapes() {
+        if !stood.contains(shape) {
+            stood.push(shape.clone());
+        }
+    }
 }
 
 fn problem(scene: &Scene) -> Result<&WorldProblem, Failure> {
@@ -283,11 +298,19 @@ impl Walked<'_> {
         Ok(())
     }
 
-    fn picture(&self) -> Picture {
-        let picture = view::changed(view::ground(&self.scene), &self.question.scene, &self.scene);
+    fn picture(&self) -> Result<Picture, Failure> {
+        let world = problem(&self.scene)?.world();
+        let ever = World::with_shapes(*world.bounds(), self.stood.iter().cloned());
+        let mut now = ever.clone();
+        for (id, shape) in ever.shapes() {
+            if !world.shapes().any(|(_, other)| other == shape) {
+                now.remove(id)?;
+            }
+        }
+        let picture = view::ground(&self.scene).shapes_changed(&ever, &now);
         let picture = view::path(picture, &self.scene, "walked", Pen::Solid, &self.line());
-        view::ends(picture, &self.scene)
+        Ok(view::ends(picture, &self.scene)
             .caption(self.title())
-            .caption(format!("{}, {} events", self.end(), self.told.len()))
+            .caption(format!("{}, {} events", self.end(), self.told.len())))
     }
 }
