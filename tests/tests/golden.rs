@@ -174,7 +174,7 @@ fn golden_traces_of_bees() {
         let params = AbcParams {
             sources: 4,
             cycles: 2,
-            steps: 40,
+            steps: 120,
             w2: 0.1,
             ..params
         };

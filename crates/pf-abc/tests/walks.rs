@@ -334,9 +334,11 @@ fn memory_fades_where_a_change_is_seen() {
     let problem = WorldProblem::new(world, 0.0, ends[0], ends[1]).unwrap();
     let way = |rumour: Option<(f64, f64)>| {
         let mut colony = Colony::new(AbcParams::default()).unwrap();
-        // Often before, the robot has been in the middle.
-        let been = vec![Point::new(20.0, 10.0); 4];
-        let changed = rumour.map(|(x, y)| (Point::new(x, y), Point::new(x + 10.0, y + 8.0)));
+        // Often before, the robot has gone up and down across the way.
+        let been: Vec<_> = (0..110)
+            .map(|k| Point::new(20.0, f64::from(k % 11) * 2.0))
+            .collect();
+        let changed = rumour.map(|(x, y)| (Point::new(x, y), Point::new(x + 10.0, y + 20.0)));
         colony.recall(&been, changed.as_slice());
         let mut cx = Context::seeded(5);
         let mut walk = Walk::begin(&mut colony, &problem);
@@ -344,34 +346,12 @@ fn memory_fades_where_a_change_is_seen() {
         walk.into_trail()
     };
     let untold = way(None);
-    assert_eq!(way(Some((15.0, 22.0))), untold, "out of sight");
-    let told = way(Some((15.0, 6.0)));
-    assert_ne!(told, untold);
-    let length = |trail: &[Point]| -> f64 {
-        let steps = trail.windows(2).map(|pair| (pair[1] - pair[0]).norm());
-        steps.sum()
-    };
-    for n in [0usize, 1, 2, 4, 8, 30] {
-        for told in [false, true] {
-            let mut colony = Colony::new(AbcParams::default()).unwrap();
-            let ch = [(Point::new(15.0, 6.0), Point::new(25.0, 14.0))];
-            colony.recall(
-                &vec![Point::new(20.0, 10.0); n],
-                if told { &ch } else { &[] },
-            );
-            let mut cx = Context::seeded(5);
-            let mut walk = Walk::begin(&mut colony, &problem);
-            while walk.step(&problem, &mut cx) == Walked::On {}
-            println!(
-                "{n} {told} {} {:?}",
-                length(walk.trail()),
-                walk.trail()
-                    .iter()
-                    .map(|p| (p.x.round(), (p.y * 10.).round() / 10.))
-                    .collect::<Vec<_>>()
-            );
-        }
-    }
-    let (short, long) = (length(&told), length(&untold));
-    assert!(short < long - 2.0, "{short} {long}");
+    assert_eq!(way(Some((15.0, 23.0))), untold, "out of sight");
+    let told = way(Some((15.0, 0.0)));
+    assert!(
+        told.len() + 5 < untold.len(),
+        "{} {}",
+        told.len(),
+        untold.len()
+    );
 }
