@@ -6,7 +6,7 @@ use pf_classic::{AStar, DStarLite, Dijkstra};
 use pf_core::{Context, Event, Planner, Problem, Replanner, Report};
 use pf_geom::{Point, Rectangle, World, WorldProblem};
 use pf_grid::{Cell, Grid, GridChange, GridProblem, Moves};
-use pf_rfd::{Rfd, RfdExact, RfdParams, RfdStar, RfdStarParams};
+use pf_rfd::{Rfd, RfdExact, RfdField, RfdParams, RfdStar, RfdStarParams};
 use pf_tests::golden;
 use std::fmt::{self, Write as _};
 
@@ -86,19 +86,43 @@ fn golden_trace_of_dijkstra() {
 fn golden_trace_of_d_star_lite() {
     let mut planner = DStarLite::default();
     let mut text = trace(&mut planner, Moves::default());
-
-    let mut problem = problem(Moves::default());
-    let plan = planner.plan(&problem, &mut Context::seeded(7));
-    plan.expect("supported");
     let changes = [
         GridChange::StartMoved(Cell::new(2, 5)),
         GridChange::Blocked(vec![Cell::new(9, 4), Cell::new(9, 5), Cell::new(9, 6)]),
     ];
-    let revision = problem.revise(&changes).expect("they make sense");
-    write!(text, "\nafter {changes:?}\n\n").expect("a string takes text");
-    let replan = |cx: &mut Context<'_, _>| planner.replan(&revision, cx).expect("supported");
-    text += &events(replan).expect("a string takes text");
+    text += &trace_after(&mut planner, &changes, false);
     golden::check("d-star-lite", &text);
+}
+
+#[test]
+fn golden_trace_of_the_altitude_field() {
+    let mut planner = RfdField::default();
+    let mut text = trace(&mut planner, Moves::default());
+    for changes in [
+        GridChange::Blocked(vec![Cell::new(5, 0), Cell::new(9, 0), Cell::new(9, 1)]),
+        GridChange::Freed(vec![Cell::new(8, 3)]),
+    ] {
+        text += &trace_after(&mut planner, &[changes], true);
+    }
+    golden::check("rfd-field", &text);
+}
+
+/// What a planner shows of a replan after a plan, and after upkeep if asked for.
+fn trace_after(
+    planner: &mut dyn Replanner<GridProblem>,
+    changes: &[GridChange],
+    settle: bool,
+) -> String {
+    let mut problem = problem(Moves::default());
+    let plan = planner.plan(&problem, &mut Context::seeded(7));
+    plan.expect("supported");
+    if settle {
+        planner.settle(&problem, &mut Context::seeded(7));
+    }
+    let revision = problem.revise(changes).expect("they make sense");
+    let replan = |cx: &mut Context<'_, _>| planner.replan(&revision, cx).expect("supported");
+    let events = events(replan).expect("a string takes text");
+    format!("\nafter {changes:?}\n\n{events}")
 }
 
 #[test]

@@ -1,12 +1,12 @@
 //! The 45 cases of the river paper's Tables 1 to 5: exact lengths and the paper's digits, from
-//! scratch and, for D* Lite and the exact river, replanned from Table 1's state.
+//! scratch and, for D* Lite, the exact river and the altitude field, replanned from Table 1's state.
 #![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
 use pf_classic::{AStar, DStarLite, DStarLiteParams, Dijkstra};
 use pf_core::{Context, Outcome, Planner, Problem, Replanner, Report};
 use pf_grid::{GridChange, GridCost, GridProblem};
 use pf_io::{Scenario, read_scenario};
-use pf_rfd::RfdExact;
+use pf_rfd::{RfdExact, RfdField};
 use std::path::Path;
 
 fn scenario() -> Scenario {
@@ -39,10 +39,11 @@ fn printed(cost: GridCost, rounded: bool) -> String {
 fn searches_give_the_papers_lengths() {
     let scenario = scenario();
     assert_eq!(scenario.cases.len(), 45);
-    let planners: [&mut dyn Planner<GridProblem>; 3] = [
+    let planners: [&mut dyn Planner<GridProblem>; 4] = [
         &mut Dijkstra::default(),
         &mut AStar::default(),
         &mut RfdExact::default(),
+        &mut RfdField::default(),
     ];
     for planner in planners {
         for case in &scenario.cases {
@@ -76,6 +77,7 @@ fn replan_all<T: Replanner<GridProblem>>(make: impl Fn() -> T, did: &str) -> u32
         if case.problem.start() != problem.start() {
             changes.push(GridChange::StartMoved(case.problem.start()));
         }
+        planner.settle(&problem, &mut Context::seeded(0));
         let revision = problem.revise(&changes).unwrap();
         assert_eq!(
             revision.problem().grid(),
@@ -106,4 +108,9 @@ fn d_star_lite_gives_the_papers_lengths_from_table_1s_state() {
 #[test]
 fn the_exact_river_gives_the_papers_lengths_from_table_1s_state() {
     assert!(replan_all(RfdExact::default, "kept") >= 30);
+}
+
+#[test]
+fn the_altitude_field_gives_the_papers_lengths_from_table_1s_state() {
+    assert!(replan_all(RfdField::default, "afresh") == 0);
 }

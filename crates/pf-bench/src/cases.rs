@@ -1,8 +1,11 @@
 //! Which maps and queries a suite asks about.
 
 use anyhow::{Context as _, Result, bail};
-use pf_grid::{Grid, Moves};
+use pf_classic::AStar;
+use pf_core::{Context, PlanRng, Planner};
+use pf_grid::{Cell, Grid, GridProblem, Moves};
 use pf_io::{LoadOptions, Scen, ScenRow, load_grid, read_scen};
+use rand::{RngExt, SeedableRng};
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -11,7 +14,8 @@ use std::{
 /// Where maps come from.
 #[derive(clap::Args)]
 pub(crate) struct Maps {
-    /// A folder of Moving AI .map files, each with its .map.scen (or .scen) beside it
+    /// A folder of Moving AI .map files, each with its .map.scen (or .scen) beside it; where there is
+    /// none, queries are made up
     #[arg(long, value_name = "DIR", default_value = "../shared/data/movingai")]
     maps: PathBuf,
     /// Only maps whose name contains this; may be given again
@@ -68,16 +72,48 @@ impl Case {
     pub(crate) fn load(map: &Path) -> Result<Self> {
         let grid = load_grid(map, &LoadOptions::default())?.grid;
         let beside = PathBuf::from(format!("{}.scen", map.display()));
+        let without = map.with_extension("scen");
         let scen = if beside.exists() {
             read_scen(&beside)?
+        } else if without.exists() {
+            read_scen(&without)?
         } else {
-            read_scen(&map.with_extension("scen"))?
+            made_up(&grid)?
         };
         scen.check_size(&grid)?;
         let name = map.file_stem().unwrap_or_default().to_string_lossy();
         Ok(Self {
             name: name.into_owned(),
             grid,
+            scen,
+        })
+    }
+
+    /// The same with every cell cut into `times` x `times`, and the queries between their middles.
+    pub(crate) fn upscaled(self, times: u32) -> Result<Self> {
+        if times <= 1 {
+            return Ok(self);
+        }
+        let whole = &self.grid;
+        let [width, height] =
+            [whole.width(), whole.height()].map(|side| side.saturating_mul(times));
+        Grid::check_size(width.into(), height.into())?;
+        let fine = Grid::new(width, height, |cell| {
+            let cell = Cell::new(cell.x / times, cell.y / times);
+            if whole.is_free(cell) {
+                whole.cost(cell)
+            } else {
+                0
+            }
+        })?;
+        let middle = |cell: Cell| Cell::new(cell.x * times + times / 2, cell.y * times + times / 2);
+        let mut scen = self.scen;
+        for row in &mut scen.rows {
+            (row.start, row.goal) = (middle(row.start), middle(row.goal));
+        }
+        Ok(Self {
+            name: format!("{} x{times}", self.name),
+            grid: Arc::new(fine),
             scen,
         })
     }
@@ -106,6 +142,37 @@ impl Case {
         rows.sort_by(|a, b| a.optimum.total_cmp(&b.optimum));
         rows
     }
+}
+
+/// Queries between free cells by chance, the same for every map of a size, with Moving AI's optima.
+fn made_up(grid: &Arc<Grid>) -> Result<Scen> {
+    const QUERIES: u32 = 200;
+    let mut rng = PlanRng::seed_from_u64(1);
+    let (width, height) = (grid.width(), grid.height());
+    let mut planner = AStar::default();
+    let mut rows = Vec::new();
+    for line in 1..=20 * QUERIES {
+        let mut cell = || Cell::new(rng.random_range(0..width), rng.random_range(0..height));
+        let (start, goal) = (cell(), cell());
+        let problem = GridProblem::new(Arc::clone(grid), start, goal)?;
+        let report = planner.plan(&problem, &mut Context::seeded(0))?;
+        if let Some(best) = report.outcome.solved() {
+            rows.push(ScenRow {
+                line,
+                bucket: 0,
+                map: "made up".into(),
+                width,
+                height,
+                start,
+                goal,
+                optimum: best.cost.value(),
+            });
+        }
+        if rows.len() == QUERIES as usize {
+            break;
+        }
+    }
+    Ok(Scen::new(rows))
 }
 
 /// The middle one of each of `limit` equal parts.

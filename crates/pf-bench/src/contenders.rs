@@ -3,7 +3,7 @@
 use anyhow::{Context as _, Result, anyhow};
 use pf_core::{Outcome, Report};
 use pf_grid::{GridCost, GridProblem};
-use pf_planners::{Entry, grid_planners};
+use pf_planners::{AnyEntry, Entry, grid_planners};
 
 /// The baseline: every answer is compared with its, and every time.
 pub(crate) const FRESH: &str = "astar";
@@ -11,7 +11,7 @@ pub(crate) const FRESH: &str = "astar";
 /// Which planners answer beside the fresh A*.
 #[derive(clap::Args)]
 pub(crate) struct Repairers {
-    /// Which planners answer beside the fresh A*; without a word all that repair
+    /// Which planners answer beside the fresh A*; without a word all that repair and prove
     #[arg(long, value_name = "NAME")]
     planner: Vec<String>,
     /// Set a parameter of these planners
@@ -41,7 +41,7 @@ impl Repairers {
         }];
         let mut asked = Vec::new();
         if self.planner.is_empty() {
-            asked.extend(grid_planners().filter(|entry| entry.replans()));
+            asked.extend(grid_planners().filter(|entry| entry.replans() && entry.claims().optimal));
         }
         for name in &self.planner {
             asked.push(entry(name)?);

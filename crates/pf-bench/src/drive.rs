@@ -41,6 +41,9 @@ pub(crate) struct Args {
     /// lengths
     #[arg(long, value_name = "N", default_value_t = 4)]
     limit: usize,
+    /// Cut every cell into N x N
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    upscale: u32,
     /// One JSON object a line
     #[arg(long)]
     json: bool,
@@ -192,7 +195,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     }
     let mut mismatches = 0;
     for map in args.maps.files_or(&MAPS)? {
-        for row in bench(args, &Case::load(&map)?)? {
+        for row in bench(args, &Case::load(&map)?.upscaled(args.upscale)?)? {
             mismatches += row.mismatches;
             if args.json {
                 json(&row)?;

@@ -5,6 +5,7 @@ use anyhow::Result;
 use pf_classic::{AStar, DStarLite, Dijkstra};
 use pf_core::{Context, Planner};
 use pf_grid::{Cell, Grid, GridProblem};
+use pf_rfd::RfdField;
 use serde::Serialize;
 use std::sync::Arc;
 
@@ -64,6 +65,15 @@ pub(crate) fn run(args: &Args) -> Result<()> {
             &problem,
             &mut dstar,
             DStarLite::bytes,
+        )?;
+        let mut field = RfdField::default();
+        measure(
+            args,
+            case,
+            "rfd-field",
+            &problem,
+            &mut field,
+            RfdField::bytes,
         )?;
     }
     Ok(())

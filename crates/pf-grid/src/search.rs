@@ -84,43 +84,68 @@ impl<W: Word> Search<W> {
         arrive: impl FnMut(u32, W) -> Option<W>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
+        let start = problem.grid().layout().id(start);
+        let seeds = [(start, W::default())];
+        self.run_from(problem, &seeds, W::LIMIT, heuristic, arrive, cx)
+    }
+
+    /// The same from several ids, each with its weight to begin with, for a path that weighs less
+    /// than `bound`: [`End::Exhausted`] means that there is none. Blocked seeds do not count.
+    pub fn run_from(
+        &mut self,
+        problem: &GridProblem,
+        seeds: &[(u32, W)],
+        bound: W,
+        heuristic: impl Fn(u32) -> Option<W>,
+        arrive: impl FnMut(u32, W) -> Option<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
         let grid = problem.grid();
         let weights = Weights::of(grid);
         let moves = problem.moves();
         self.begin(grid.layout());
-        if !grid.is_free(start) {
-            return End::Exhausted;
-        }
         let layout = grid.layout();
-        let start = layout.id(start);
-        let Some(first) = heuristic(start) else {
+        let key = |&(id, g): &(u32, W)| {
+            let least = grid.is_free_id(id).then(|| heuristic(id))??;
+            Some(g + least)
+        };
+        let Some(first) = seeds.iter().filter_map(key).min() else {
             return End::Exhausted;
         };
-        // One step changes the key by its weight and the heuristic by no more than that.
+        // One step changes the key by its weight and the heuristic by no more than that. Where seeds
+        // lie further apart than the list is wide, some are looked at early, which is no harm.
         let reach = weights.reach();
 
         self.open.reset(first, reach, weights.shift::<W>());
-        self.records[start as usize] = Record {
-            g: W::default(),
-            generation: self.generation,
-            arrivals: 0,
-            closed: false,
-        };
-        self.open.push(first, start, W::default());
+        for seed in seeds {
+            let &(id, g) = seed;
+            let known = self.weight(id);
+            if let Some(key) = key(seed)
+                && known.is_none_or(|known| g < known)
+            {
+                self.records[id as usize] = Record {
+                    g,
+                    generation: self.generation,
+                    arrivals: 0,
+                    closed: false,
+                };
+                self.open.push(key, id, g);
+            }
+        }
         if weights.is_uniform() {
             let pruned = Pruned {
                 grid,
                 moves,
                 successors: successors(moves),
             };
-            self.search(layout, heuristic, arrive, &pruned, cx)
+            self.search(layout, bound, heuristic, arrive, &pruned, cx)
         } else {
             let weighed = Weighed {
                 grid,
                 moves,
                 weights,
             };
-            self.search(layout, heuristic, arrive, &weighed, cx)
+            self.search(layout, bound, heuristic, arrive, &weighed, cx)
         }
     }
 
@@ -141,6 +166,7 @@ impl<W: Word> Search<W> {
     fn search<S: Steps<W>>(
         &mut self,
         layout: &Layout,
+        most: W,
         heuristic: impl Fn(u32) -> Option<W>,
         mut arrive: impl FnMut(u32, W) -> Option<W>,
         steps: &S,
@@ -149,7 +175,7 @@ impl<W: Word> Search<W> {
         let offsets = layout.offsets();
         let generation = self.generation;
         // No path as heavy as this is of interest, first for exactness, then for being no better.
-        let mut bound = W::LIMIT;
+        let mut bound = most;
         let mut beyond = false;
         while let Some((id, g)) = self.open.pop(bound) {
             let record = &mut self.records[id as usize];
@@ -185,6 +211,10 @@ impl<W: Word> Search<W> {
                     if next_g > known || record.arrivals & arrival != 0 || !S::CANONICAL {
                         continue;
                     }
+                    // From where the search began all successors are due already.
+                    if record.arrivals == 0 {
+                        continue;
+                    }
                     // As good as the best, from elsewhere: other successors may be due.
                     record.arrivals |= arrival;
                     if !record.closed {
@@ -210,9 +240,9 @@ impl<W: Word> Search<W> {
                 }
             }
         }
-        if bound < W::LIMIT {
+        if bound < most {
             End::Goal(bound)
-        } else if beyond {
+        } else if beyond && most == W::LIMIT {
             End::TooFar
         } else {
             End::Exhausted
@@ -269,6 +299,45 @@ impl<W: Word> Search<W> {
             let k = arrivals.trailing_zeros() as usize;
             let from = id.wrapping_add_signed(-*offsets.get(k)?);
             Some((from, self.records[from as usize].g))
+        })
+    }
+
+    /// Of the last search, which weighed `whole` from its start to its goal ([`Word::MAX`] if that was
+    /// out of reach): how far an id is from the start, and `true`; or a bound of it from below, and
+    /// `false`. [`Word::MAX`] if it is out of reach.
+    ///
+    /// `to_start` and `to_goal` are the heuristic's values for the two. It is a consistent heuristic
+    /// itself. A path over a cell whose distance is not known is no shorter than `whole`.
+    #[inline]
+    #[must_use]
+    pub fn estimate(&self, id: u32, whole: W, to_start: W, to_goal: W) -> (W, bool) {
+        let record = self.records[id as usize];
+        let reached = record.generation == self.generation;
+        if whole == W::MAX {
+            return (if reached { record.g } else { W::MAX }, true);
+        }
+        // Every cell over which a path was shorter than the whole was expanded at its least weight.
+        if reached && record.closed && record.g + to_goal <= whole {
+            return (record.g, true);
+        }
+        let over = whole.max(to_goal) - to_goal;
+        (to_start.max(over), false)
+    }
+
+    /// The neighbour over which an id is `left` from the last search's start, by a step that is
+    /// legal now, and what the step weighs; of several the first in the order of
+    /// [`DIRECTIONS`](crate::DIRECTIONS).
+    #[must_use]
+    pub fn next(&self, problem: &GridProblem, id: u32, left: W) -> Option<(u32, W)> {
+        let grid = problem.grid();
+        let offsets = grid.layout().offsets();
+        let weights = Weights::of(grid);
+        let legal = problem.moves().legal(grid.around_id(id));
+        (0..8).filter(|k| legal >> k & 1 == 1).find_map(|k: u32| {
+            let next = id.wrapping_add_signed(offsets[k as usize]);
+            let weight = weights.step(grid, id, next, k);
+            let rest = self.weight(next)?;
+            (rest < left && rest + weight == left).then_some((next, weight))
         })
     }
 

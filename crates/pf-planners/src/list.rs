@@ -4,22 +4,26 @@ use crate::{AnyEntry, Entry, UnknownPlanner, entry::entry};
 use pf_abc::{Abc, AbcParams};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{
-    AStar, AStarParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams, VisibilityGraph,
-    VisibilityGraphParams,
+    AStar, AStarParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams, Jps, JpsParams,
+    VisibilityGraph, VisibilityGraphParams,
 };
 use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
 use pf_lbfgs::{Lbfgs, LbfgsParams};
 use pf_pso::{Pso, PsoParams};
-use pf_rfd::{Rfd, RfdExact, RfdExactParams, RfdParams, RfdStar, RfdStarParams};
+use pf_rfd::{
+    Rfd, RfdExact, RfdExactParams, RfdField, RfdFieldParams, RfdParams, RfdStar, RfdStarParams,
+};
 
 static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
     entry!(plans "astar", AStar, AStarParams, "Hart, Nilsson, Raphael 1968"),
+    entry!(replans "jps", Jps, JpsParams, "Harabor, Grastien 2011, 2014"),
     entry!(replans "d-star-lite", DStarLite, DStarLiteParams, "Koenig, Likhachev 2002"),
     entry!(replans "rfd", Rfd, RfdParams, "Rabanal, Rodriguez, Rubio 2007; Redlarski, Dabkowski, Palkowski"),
     entry!(replans "rfd-star", RfdStar, RfdStarParams, "Redlarski, Dabkowski, Palkowski"),
     entry!(replans "rfd-exact", RfdExact, RfdExactParams, "after Korf 1990; Koenig, Likhachev 2006"),
+    entry!(replans "rfd-field", RfdField, RfdFieldParams, "after Redlarski, Dabkowski, Palkowski; Ramalingam, Reps 1996"),
     entry!(replans "aco", Aco, AcoParams, "Dorigo, Maniezzo, Colorni 1996"),
     entry!(replans "aco-star", AcoStar, AcoStarParams, "Redlarski, Dabkowski, Palkowski"),
 ];

@@ -6,7 +6,7 @@ use pf_conformance::{
 };
 use pf_core::Replanner;
 use pf_grid::GridProblem;
-use pf_rfd::{Rfd, RfdExact, RfdParams, RfdStar, RfdStarParams};
+use pf_rfd::{Rfd, RfdExact, RfdField, RfdParams, RfdStar, RfdStarParams};
 
 fn keeps_the_laws(make: &dyn Fn() -> Box<dyn Replanner<GridProblem>>) {
     let options = Options {
@@ -34,6 +34,11 @@ fn star(params: &RfdStarParams) -> Box<dyn Replanner<GridProblem>> {
 #[test]
 fn exact_rfd_keeps_the_laws() {
     grid::check_replanner(RfdExact::default);
+}
+
+#[test]
+fn the_altitude_field_keeps_the_laws() {
+    grid::check_replanner(RfdField::default);
 }
 
 #[test]

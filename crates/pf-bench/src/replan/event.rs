@@ -1,17 +1,16 @@
 //! What happens to a map and a query, by chance but the same for all planners.
 //!
-//! Each event happens to the map as the file has it, to a robot that has gone the first
-//! [`STEPS`] steps of its path (a quarter of a path that is shorter than four times that); its new
-//! place and what changes come as one batch. *Near* means in the square window around the robot that
+//! Each event happens to the map as the file has it, to a robot that has gone some steps of its path
+//! (a quarter of a path that is shorter than four times that); its new place and what changes come as
+//! one batch. *Near* means in the square window around the robot that
 //! reaches [`NEAR`] cells in all four directions, clipped to the map. A changed cell is flipped: a
 //! free one is blocked, a blocked one freed. The cells of robot and goal never change.
 
-use pf_core::PlanRng;
+use pf_classic::AStar;
+use pf_core::{Context, PlanRng, Planner, Problem};
 use pf_grid::{Cell, Grid, GridChange, GridProblem};
 use rand::{RngExt, SeedableRng};
 
-/// How far the robot has gone.
-const STEPS: usize = 5;
 /// How far near is, in cells.
 const NEAR: u32 = 10;
 /// How many times the cells that change 1 % near the robot fit into their window.
@@ -36,16 +35,26 @@ pub(crate) enum Class {
     GoalMoved,
     /// The robot is pushed to a free cell near itself.
     RobotMoved,
+    /// 10 free cells near one on the robot's path are blocked.
+    Blocked,
+    /// 10 blocked cells near one on the robot's path are freed.
+    Freed,
+    /// A square on the robot's path is blocked, the smallest that makes it longer, and does not close
+    /// it: of several places one where there is any.
+    Longer,
 }
 
 impl Class {
-    pub(crate) const ALL: [Self; 6] = [
+    pub(crate) const ALL: [Self; 9] = [
         Self::NearTen,
         Self::NearPercent,
         Self::AnywherePercent,
         Self::Block,
         Self::GoalMoved,
         Self::RobotMoved,
+        Self::Blocked,
+        Self::Freed,
+        Self::Longer,
     ];
 
     /// Its name in tables and on the command line.
@@ -57,6 +66,9 @@ impl Class {
             Self::Block => "block-7x7",
             Self::GoalMoved => "goal-moved",
             Self::RobotMoved => "robot-moved",
+            Self::Blocked => "blocked",
+            Self::Freed => "freed",
+            Self::Longer => "longer",
         }
     }
 }
@@ -73,17 +85,17 @@ pub(crate) struct Event {
 }
 
 impl Event {
-    /// An event of a class, as chance has it; `path` answers the problem. `None` where there is no
-    /// room for one.
+    /// An event of a class, as chance has it; `path` answers the problem, and the robot has gone so
+    /// many steps of it. `None` where there is no room for one.
     pub(crate) fn draw(
         class: Class,
         problem: &GridProblem,
-        path: &[Cell],
+        (path, steps): (&[Cell], usize),
         seed: u64,
     ) -> Option<Self> {
         let mut rng = PlanRng::seed_from_u64(seed);
         let (grid, goal) = (problem.grid(), problem.goal());
-        let at = STEPS.min(path.len() / 4);
+        let at = steps.min(path.len() / 4);
         let robot = *path.get(at)?;
         let mut changes = vec![GridChange::StartMoved(robot)];
         let mut undo = vec![GridChange::StartMoved(problem.start())];
@@ -100,10 +112,17 @@ impl Event {
             }
             Class::AnywherePercent => draw(&mut rng, percent, &Window::all(grid), kept),
             Class::Block => {
-                let middle = middle(&mut rng, &path[at..])?;
+                let middle = middle(&mut rng, &path[at..], REACH)?;
                 let block = Window::around(middle, REACH, grid);
                 block.iter().filter(|&cell| grid.is_free(cell)).collect()
             }
+            Class::Blocked | Class::Freed => {
+                let free = class == Class::Blocked;
+                let near = pick(&mut rng, &path[at..])?;
+                let other = |cell: Cell| kept(cell) || grid.is_free(cell) != free;
+                draw(&mut rng, 10, &Window::around(*near, NEAR, grid), other)
+            }
+            Class::Longer => longer(&mut rng, problem, &path[at..])?,
             Class::GoalMoved => {
                 let to = elsewhere(&mut rng, grid, goal, robot)?;
                 changes.push(GridChange::GoalMoved(to));
@@ -184,10 +203,43 @@ fn draw(rng: &mut PlanRng, count: u32, window: &Window, kept: impl Fn(Cell) -> b
     cells
 }
 
+/// The cells of a block on a way that makes it longer and does not close it.
+fn longer(rng: &mut PlanRng, problem: &GridProblem, way: &[Cell]) -> Option<Vec<Cell>> {
+    let (start, goal) = (*way.first()?, *way.last()?);
+    let whole = problem.clone();
+    let mut astar = AStar::default();
+    let mut cost = |problem: &GridProblem| {
+        let report = astar.plan(problem, &mut Context::seeded(0)).ok()?;
+        report.outcome.solved().map(|best| best.cost)
+    };
+    let mut whole = whole;
+    whole
+        .apply(&[GridChange::StartMoved(start), GridChange::GoalMoved(goal)])
+        .ok()?;
+    let before = cost(&whole)?;
+    for attempt in 0..60 {
+        let reach = 1 + attempt / 5;
+        let Some(middle) = middle(rng, way, reach) else {
+            continue;
+        };
+        let block = Window::around(middle, reach, problem.grid());
+        let cells: Vec<Cell> = block
+            .iter()
+            .filter(|&c| problem.grid().is_free(c))
+            .collect();
+        let mut then = whole.clone();
+        then.apply(&[GridChange::Blocked(cells.clone())]).ok()?;
+        if cost(&then).is_some_and(|after| after > before) {
+            return Some(cells);
+        }
+    }
+    None
+}
+
 /// A cell of a way around which a block has room, covering neither of its ends.
-fn middle(rng: &mut PlanRng, way: &[Cell]) -> Option<Cell> {
+fn middle(rng: &mut PlanRng, way: &[Cell], reach: u32) -> Option<Cell> {
     let ends = [*way.first()?, *way.last()?];
-    let apart = |a: Cell, b: Cell| a.x.abs_diff(b.x).max(a.y.abs_diff(b.y)) > REACH;
+    let apart = |a: Cell, b: Cell| a.x.abs_diff(b.x).max(a.y.abs_diff(b.y)) > reach;
     let clear = |cell: &Cell| ends.iter().all(|&end| apart(*cell, end));
     let middles: Vec<Cell> = way.iter().copied().filter(clear).collect();
     pick(rng, &middles).copied()
@@ -210,7 +262,6 @@ fn elsewhere(rng: &mut PlanRng, grid: &Grid, near: Cell, not: Cell) -> Option<Ce
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pf_core::Problem;
 
     #[test]
     fn events_are_what_their_class_says_and_can_be_undone() {
@@ -220,8 +271,8 @@ mod tests {
         let mut problem = GridProblem::new(grid, path[0], path[99]).unwrap();
         let before = problem.clone();
         for class in Class::ALL {
-            let event = Event::draw(class, &problem, &path, 7).unwrap();
-            let again = Event::draw(class, &problem, &path, 7).unwrap();
+            let event = Event::draw(class, &problem, (&path, 5), 7).unwrap();
+            let again = Event::draw(class, &problem, (&path, 5), 7).unwrap();
             assert_eq!(event.changes, again.changes, "{}", class.name());
             assert_eq!(event.robot, Cell::new(5, 2));
             problem.apply(&event.changes).unwrap();
@@ -234,6 +285,8 @@ mod tests {
                 Class::NearPercent | Class::AnywherePercent => (60, 60),
                 Class::Block => (20, 49),
                 Class::GoalMoved | Class::RobotMoved => (0, 0),
+                Class::Blocked | Class::Freed => (10, 10),
+                Class::Longer => (1, 49),
             };
             assert!((few..=most).contains(&changed.len()), "{}", class.name());
             if class == Class::NearTen {

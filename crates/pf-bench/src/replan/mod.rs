@@ -30,6 +30,7 @@ use std::time::Duration;
 #[command(after_help = "\
 Examples:
   cargo xtask bench replan
+  cargo xtask bench replan --maps maps/grids/redlarski --filter 100 --moves always --steps 0
   cargo xtask bench replan --filter Aftershock --event 10-near --moves no-corner-cutting
   cargo xtask bench replan --planner d-star-lite --set patience=0.3 --json")]
 pub(crate) struct Args {
@@ -38,9 +39,15 @@ pub(crate) struct Args {
     #[command(flatten)]
     planners: Repairers,
     /// Only events of this class: 10-near, 1%-near, 1%-anywhere, block-7x7, goal-moved,
-    /// robot-moved; may be given again
+    /// robot-moved, blocked, freed, longer; may be given again
     #[arg(long, value_name = "CLASS", value_parser = class)]
     event: Vec<Class>,
+    /// How far the robot has gone when the event comes
+    #[arg(long, value_name = "N", default_value_t = 5)]
+    steps: usize,
+    /// Cut every cell into N x N
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    upscale: u32,
     /// Under which moves; without a word no-corner-cutting, and orthogonal beside
     /// condor-pathfinding-grid
     #[arg(long, value_name = "RULE")]
@@ -69,6 +76,7 @@ fn class(text: &str) -> Result<Class, String> {
 struct Count {
     latency: Tally,
     upkeep: Tally,
+    both: Tally,
     /// How many times faster than fresh, of each query by itself.
     paired: Vec<f64>,
     afresh: u32,
@@ -92,6 +100,9 @@ struct Row {
     upkeep_us: Option<f64>,
     #[serde(skip_serializing_if = "Option::is_none")]
     upkeep_p95_us: Option<f64>,
+    /// The median of latency and upkeep together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    both_us: Option<f64>,
     /// The fresh A*'s median divided by this one's.
     speedup: f64,
     /// The median of what the fresh A* takes divided by what this one takes.
@@ -118,7 +129,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     }
     let mut rows = Vec::new();
     for map in args.maps.files()? {
-        let case = Case::load(&map)?;
+        let case = Case::load(&map)?.upscaled(args.upscale)?;
         for &moves in rules {
             for &class in classes {
                 let told = bench(args, &case, moves, class)?;
@@ -183,7 +194,7 @@ fn bench(args: &Args, case: &Case, moves: Moves, class: Class) -> Result<Vec<Row
         }
         let seed = args.seed.wrapping_mul(1 << 32) + u64::from(row.line);
         let Some(path) = path else { continue };
-        let Some(event) = Event::draw(class, &problem, &path, seed) else {
+        let Some(event) = Event::draw(class, &problem, (&path, args.steps), seed) else {
             continue;
         };
         if let Some((condor, _)) = &mut condor {
@@ -240,13 +251,12 @@ fn shot(
         times[k] = change + time;
         costs[k] = proved(&report);
         count.latency.expanded += report.stats.expanded;
-        count.afresh += u32::from(!matches!(
-            report.note("replanned"),
-            Some("kept" | "searched" | "repaired")
-        ));
+        let afresh = report.note("replanned").is_none_or(|how| how == "afresh");
+        count.afresh += u32::from(afresh);
         let mut cx = Context::seeded(seed);
         let (time, ()) = timed(|| one.planner.settle(revision.problem(), &mut cx));
         count.upkeep.add(time);
+        count.both.add(times[k] + time);
     }
     let counts = ours.iter_mut().map(|(_, count)| count);
     let counts = counts.chain(condor.iter_mut().map(|(_, count)| count));
@@ -289,6 +299,7 @@ impl Count {
             p95_us: self.latency.quantile(0.95),
             upkeep_us: ours.then(|| self.upkeep.quantile(0.5)),
             upkeep_p95_us: ours.then(|| self.upkeep.quantile(0.95)),
+            both_us: ours.then(|| self.both.quantile(0.5)),
             speedup: fresh / median,
             paired_speedup: self.paired.get(queries / 2).copied().unwrap_or(f64::NAN),
             expanded: ours.then(|| mean(self.latency.expanded)),
@@ -300,7 +311,7 @@ impl Count {
 
 fn header() -> Result<()> {
     say(format_args!(
-        "{:<27} {:<12} {:<22} {:>7} {:>10} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>7} {:>10}",
+        "{:<27} {:<12} {:<22} {:>7} {:>10} {:>10} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10}",
         "map",
         "event",
         "planner",
@@ -311,6 +322,7 @@ fn header() -> Result<()> {
         "paired",
         "upkeep us",
         "its p95",
+        "both us",
         "expanded",
         "afresh",
         "mismatches"
@@ -322,7 +334,7 @@ fn tell(row: &Row) -> Result<()> {
         value.map_or("-".to_owned(), |value| format!("{value:.digits$}"))
     };
     say(format_args!(
-        "{:<27} {:<12} {:<22} {:>7} {:>10.1} {:>10.1} {:>8.2} {:>8.2} {:>9} {:>9} {:>9} {:>7} {:>10}",
+        "{:<27} {:<12} {:<22} {:>7} {:>10.1} {:>10.1} {:>8.2} {:>8.2} {:>9} {:>9} {:>9} {:>9} {:>7} {:>10}",
         row.case,
         row.event,
         row.planner,
@@ -333,6 +345,7 @@ fn tell(row: &Row) -> Result<()> {
         row.paired_speedup,
         maybe(row.upkeep_us, 1),
         maybe(row.upkeep_p95_us, 1),
+        maybe(row.both_us, 1),
         maybe(row.expanded, 0),
         maybe(row.afresh, 2),
         row.mismatches

@@ -1,0 +1,490 @@
+//! Distances from one cell to all others, kept whole.
+
+use crate::{Buckets, Cell, Grid, GridProblem, Layout, Moves, Weights, Word};
+use pf_core::Context;
+use std::{cmp::Reverse, collections::BinaryHeap};
+
+/// The distance from every cell to one, the root; [`Word::MAX`] where there is no way.
+///
+/// Unlike a [`DistanceField`](crate::DistanceField), which knows what one start needs, they are
+/// exact everywhere once made, and stay so through [`repair`](Self::repair). Four bytes a cell in
+/// 32 bits. The root's distance is 0 even where the root is blocked; nothing leads on from it then.
+#[derive(Clone, Debug, Default)]
+pub struct Distances<W> {
+    values: Vec<W>,
+    layout: Option<Layout>,
+    basis: Option<(Cell, Weights)>,
+}
+
+/// How work on [`Distances`] ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Swept {
+    /// They are exact.
+    Whole,
+    /// The budget ran out; they are forgotten.
+    Cut,
+    /// Repairing has taken as much as it may; they are forgotten.
+    GaveUp,
+    /// Some way weighs more than the word orders exactly; they are forgotten.
+    TooFar,
+}
+
+/// Memory that sweeps and repairs of any number of [`Distances`] share.
+#[derive(Clone, Debug, Default)]
+pub struct Sweeper<W: Copy + Ord> {
+    open: Buckets<W>,
+    queue: BinaryHeap<Reverse<(W, u32)>>,
+    raised: Vec<u32>,
+}
+
+impl<W: Word> Sweeper<W> {
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.open.bytes()
+            + self.queue.capacity() * size_of::<Reverse<(W, u32)>>()
+            + self.raised.capacity() * size_of::<u32>()
+    }
+}
+
+impl<W: Word> Distances<W> {
+    /// Whether distances on this grid fit the word.
+    #[must_use]
+    pub fn fit(problem: &GridProblem) -> bool {
+        Weights::of(problem.grid()).fit::<W>(problem.grid(), 2)
+    }
+
+    /// The root and the weights that the distances were made for, if they were.
+    #[must_use]
+    pub fn basis(&self) -> Option<(Cell, Weights)> {
+        self.basis
+    }
+
+    /// The distance of an id; [`Word::MAX`] if there is no way.
+    #[inline]
+    #[must_use]
+    pub fn at(&self, id: u32) -> W {
+        self.values[id as usize]
+    }
+
+    /// Gives them up; the memory stays.
+    pub fn forget(&mut self) {
+        self.basis = None;
+    }
+
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.values.capacity() * size_of::<W>()
+    }
+
+    /// Makes them anew: one expansion for every cell that the root can be reached from.
+    ///
+    /// Source: Dijkstra, *A note on two problems in connexion with graphs*, 1959, with Dial's
+    /// buckets. A bucket is narrower than the cheapest step, so no cell is expanded twice.
+    pub fn sweep(
+        &mut self,
+        problem: &GridProblem,
+        root: Cell,
+        sweeper: &mut Sweeper<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Swept {
+        let grid = problem.grid();
+        let layout = *grid.layout();
+        self.layout = Some(layout);
+        self.basis = None;
+        self.values.clear();
+        self.values.resize(layout.len(), W::MAX);
+        let weights = Weights::of(grid);
+        let id = layout.id(root);
+        self.values[id as usize] = W::default();
+        let open = &mut sweeper.open;
+        open.reset(W::default(), weights.reach(), weights.shift::<W>());
+        if grid.is_free(root) {
+            open.push(W::default(), id, W::default());
+        }
+        let end = if weights.is_uniform() {
+            let weigh = |_, _, k| {
+                if k < 4 { W::STRAIGHT } else { W::DIAGONAL }
+            };
+            spread(&mut self.values, problem, open, weigh, cx)
+        } else {
+            let weigh = |from, to, k| weights.step(grid, from, to, k);
+            spread(&mut self.values, problem, open, weigh, cx)
+        };
+        if end == Swept::Whole {
+            self.basis = Some((root, weights));
+        }
+        end
+    }
+
+    /// Repairs them after the map changed at `changed`, at a cost in the cells whose distance that
+    /// changes, of which there may be `most`.
+    ///
+    /// Source: Ramalingam and Reps, *An incremental algorithm for a generalization of the
+    /// shortest-path problem*, 1996: first every cell that has lost its way is found, in the order
+    /// of the old distances, then distances spread again.
+    pub fn repair(
+        &mut self,
+        problem: &GridProblem,
+        changed: &[u32],
+        most: u64,
+        sweeper: &mut Sweeper<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Swept {
+        let now = Weights::of(problem.grid());
+        let Some((root, weights)) = self.basis.take() else {
+            return Swept::GaveUp;
+        };
+        if self.layout != Some(*problem.grid().layout()) || !weights.hold_under(now) {
+            return Swept::GaveUp;
+        }
+        let steps = Steps::of(problem, weights);
+        let end = self.mend(&steps, root, changed, most, sweeper, cx);
+        sweeper.queue.clear();
+        if end == Swept::Whole {
+            self.basis = Some((root, weights));
+        }
+        end
+    }
+
+    fn mend(
+        &mut self,
+        steps: &Steps<'_>,
+        root: Cell,
+        changed: &[u32],
+        most: u64,
+        sweeper: &mut Sweeper<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Swept {
+        let (queue, raised) = (&mut sweeper.queue, &mut sweeper.raised);
+        let root = steps.layout.id(root);
+        let values = &mut self.values;
+        let near = || {
+            let around = |&id: &u32| steps.offsets.map(|offset| id.wrapping_add_signed(offset));
+            let around = changed.iter().flat_map(around);
+            around.chain(changed.iter().copied())
+        };
+        queue.clear();
+        raised.clear();
+        let known = near().map(|id| (values[id as usize], id));
+        queue.extend(known.filter(|&(value, _)| value < W::MAX).map(Reverse));
+        let mut expanded = 0;
+        while let Some(Reverse((value, id))) = queue.pop() {
+            if id == root || values[id as usize] == W::MAX {
+                continue;
+            }
+            let leads = |(next, weight)| {
+                let rest: W = values[next as usize];
+                rest < value && rest + weight <= value
+            };
+            if steps.from(id).any(leads) {
+                continue;
+            }
+            expanded += 1;
+            if expanded > most {
+                return Swept::GaveUp;
+            }
+            if !cx.proceed() {
+                return Swept::Cut;
+            }
+            cx.expanded(|| steps.layout.cell(id));
+            values[id as usize] = W::MAX;
+            raised.push(id);
+            // Whose step was legal and is not, or weighs something else, is near a change.
+            for (next, weight) in steps.from::<W>(id) {
+                let theirs = values[next as usize];
+                if theirs < W::MAX && theirs == value + weight {
+                    queue.push(Reverse((theirs, next)));
+                }
+            }
+        }
+        for id in near().chain(raised.iter().copied()) {
+            let over = steps.from::<W>(id).filter_map(|(next, weight)| {
+                let rest = values[next as usize];
+                (rest < W::MAX).then(|| rest + weight)
+            });
+            if let Some(least) = over.min()
+                && least < values[id as usize]
+                && id != root
+            {
+                values[id as usize] = least;
+                queue.push(Reverse((least, id)));
+            }
+        }
+        while let Some(Reverse((value, id))) = queue.pop() {
+            if values[id as usize] != value {
+                continue;
+            }
+            expanded += 1;
+            if expanded > most {
+                return Swept::GaveUp;
+            }
+            if !cx.proceed() {
+                return Swept::Cut;
+            }
+            cx.expanded(|| steps.layout.cell(id));
+            if value >= W::LIMIT {
+                return Swept::TooFar;
+            }
+            for (next, weight) in steps.from::<W>(id) {
+                let through = value + weight;
+                if through < values[next as usize] {
+                    values[next as usize] = through;
+                    queue.push(Reverse((through, next)));
+                }
+            }
+        }
+        Swept::Whole
+    }
+
+    /// The ways down to the root by steps that are legal in `problem` and weigh there what the
+    /// distances say: who arrives has gone as far as they say.
+    #[must_use]
+    pub fn downhill<'d>(&'d self, problem: &'d GridProblem) -> Downhill<'d, W> {
+        let grid = problem.grid();
+        let weights = self
+            .basis
+            .map_or_else(|| Weights::of(grid), |(_, weights)| weights);
+        Downhill {
+            values: &self.values,
+            steps: Steps::of(problem, weights),
+        }
+    }
+}
+
+/// See [`Distances::downhill`].
+#[derive(Debug)]
+pub struct Downhill<'d, W> {
+    values: &'d [W],
+    steps: Steps<'d>,
+}
+
+impl<W: Word> Downhill<'_, W> {
+    /// The next id on the way down from one, and the direction of the step: `ahead` if that leads
+    /// there, so that ways are straight, else the first in the order of
+    /// [`DIRECTIONS`](crate::DIRECTIONS).
+    #[inline]
+    #[must_use]
+    pub fn next(&self, id: u32, ahead: u32) -> Option<(u32, u32)> {
+        let left = self.values[id as usize];
+        let legal = self.steps.legal(id);
+        let leads = |k: u32| {
+            let next = id.wrapping_add_signed(self.steps.offsets[k as usize & 7]);
+            let rest = self.values[next as usize];
+            let weight: W = self.steps.weights.step(self.steps.grid, id, next, k);
+            (rest < left && rest + weight == left).then_some((next, k))
+        };
+        if u32::from(legal) >> ahead & 1 == 1
+            && let Some(on) = leads(ahead)
+        {
+            return Some(on);
+        }
+        let mut ways = legal;
+        while ways != 0 {
+            let k = ways.trailing_zeros();
+            ways &= ways - 1;
+            if let Some(on) = leads(k) {
+                return Some(on);
+            }
+        }
+        None
+    }
+
+    /// Goes down from an id and shows every id on the way, that one first. Returns the last: the
+    /// root, or where there is no way on.
+    #[inline]
+    pub fn go(&self, from: u32, mut show: impl FnMut(u32)) -> u32 {
+        let (mut id, mut ahead) = (from, 0);
+        loop {
+            show(id);
+            let Some((next, k)) = self.next(id, ahead) else {
+                return id;
+            };
+            (id, ahead) = (next, k);
+        }
+    }
+}
+
+/// Steps on a map by the weights of distances made before.
+#[derive(Debug)]
+struct Steps<'p> {
+    grid: &'p Grid,
+    moves: Moves,
+    layout: Layout,
+    offsets: [i32; 8],
+    weights: Weights,
+}
+
+impl<'p> Steps<'p> {
+    fn of(problem: &'p GridProblem, weights: Weights) -> Self {
+        let grid = problem.grid();
+        let layout = *grid.layout();
+        Self {
+            grid,
+            moves: problem.moves(),
+            layout,
+            offsets: layout.offsets(),
+            weights,
+        }
+    }
+
+    /// The directions of the steps from an id: none if it is blocked.
+    #[inline]
+    fn legal(&self, id: u32) -> u8 {
+        if self.grid.is_free_id(id) {
+            self.moves.legal(self.grid.around_id(id))
+        } else {
+            0
+        }
+    }
+
+    /// The ids one step away, and what the step weighs.
+    #[inline]
+    fn from<W: Word>(&self, id: u32) -> impl Iterator<Item = (u32, W)> + '_ {
+        let legal = self.legal(id);
+        let steps = (0..8).filter(move |k| legal >> k & 1 == 1);
+        steps.map(move |k: u32| {
+            let next = id.wrapping_add_signed(self.offsets[k as usize]);
+            (next, self.weights.step(self.grid, id, next, k))
+        })
+    }
+}
+
+/// Spreads distances from what is open.
+#[inline]
+fn spread<W: Word>(
+    values: &mut [W],
+    problem: &GridProblem,
+    open: &mut Buckets<W>,
+    weigh: impl Fn(u32, u32, u32) -> W,
+    cx: &mut Context<'_, GridProblem>,
+) -> Swept {
+    let grid = problem.grid();
+    let (layout, moves) = (*grid.layout(), problem.moves());
+    let offsets = layout.offsets();
+    while let Some((id, value)) = open.pop(W::MAX) {
+        if values[id as usize] != value {
+            continue;
+        }
+        if !cx.proceed() {
+            return Swept::Cut;
+        }
+        cx.expanded(|| layout.cell(id));
+        if value >= W::LIMIT {
+            return Swept::TooFar;
+        }
+        let mut legal = moves.legal(grid.around_id(id));
+        while legal != 0 {
+            let k = legal.trailing_zeros();
+            legal &= legal - 1;
+            let next = id.wrapping_add_signed(offsets[k as usize]);
+            let through = value + weigh(id, next, k);
+            if through < values[next as usize] {
+                values[next as usize] = through;
+                open.push(through, next, through);
+            }
+        }
+    }
+    Swept::Whole
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::GridChange;
+    use pf_core::Problem;
+
+    /// Small numbers that look like chance.
+    fn noise(seed: &mut u32) -> u32 {
+        *seed ^= *seed << 13;
+        *seed ^= *seed >> 17;
+        *seed ^= *seed << 5;
+        *seed
+    }
+
+    fn swept(problem: &GridProblem, root: Cell) -> Vec<u32> {
+        let mut fresh = Distances::<u32>::default();
+        let cx = &mut Context::seeded(0);
+        let end = fresh.sweep(problem, root, &mut Sweeper::default(), cx);
+        assert_eq!(end, Swept::Whole);
+        fresh.values
+    }
+
+    #[test]
+    fn repaired_distances_are_those_of_a_sweep() {
+        let mut seed = 7;
+        for moves in Moves::ALL {
+            for terrain in [false, true] {
+                let grid = Grid::new(30, 20, |_| match noise(&mut seed) % 10 {
+                    0..3 => 0,
+                    n if terrain => u8::try_from(n).unwrap(),
+                    _ => 1,
+                });
+                let root = Cell::new(noise(&mut seed) % 30, noise(&mut seed) % 20);
+                let problem = GridProblem::new(grid.unwrap(), root, root).unwrap();
+                let mut problem = problem.with_moves(moves);
+                let mut kept = Distances::<u32>::default();
+                let mut sweeper = Sweeper::default();
+                let cx = &mut Context::seeded(0);
+                kept.sweep(&problem, root, &mut sweeper, cx);
+                for round in 0..60 {
+                    let mut cells = || {
+                        let cell = |seed: &mut u32| Cell::new(noise(seed) % 30, noise(seed) % 20);
+                        (0..=round % 9).map(|_| cell(&mut seed)).collect::<Vec<_>>()
+                    };
+                    let changes = [
+                        GridChange::Blocked(cells()),
+                        GridChange::Freed(cells()),
+                        GridChange::CostChanged(cells(), if terrain { 5 } else { 1 }),
+                    ];
+                    problem.apply(&changes).unwrap();
+                    let layout = *problem.grid().layout();
+                    let changed = changes.iter().flat_map(|change| match change {
+                        GridChange::Blocked(cells)
+                        | GridChange::Freed(cells)
+                        | GridChange::CostChanged(cells, _) => cells.clone(),
+                        _ => Vec::new(),
+                    });
+                    let changed: Vec<_> = changed.map(|cell| layout.id(cell)).collect();
+                    let end = kept.repair(&problem, &changed, u64::MAX, &mut sweeper, cx);
+                    if end == Swept::GaveUp {
+                        kept.sweep(&problem, root, &mut sweeper, cx);
+                    }
+                    assert_eq!(kept.values, swept(&problem, root), "{moves}, round {round}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_way_down_ends_at_the_root_or_where_it_is_blocked() {
+        let grid = Grid::parse("....... .#####. .......").unwrap();
+        let (root, from) = (Cell::new(0, 1), Cell::new(6, 1));
+        let mut problem = GridProblem::new(grid, from, root).unwrap();
+        let mut field = Distances::<u32>::default();
+        let cx = &mut Context::seeded(0);
+        field.sweep(&problem, root, &mut Sweeper::default(), cx);
+        let layout = *problem.grid().layout();
+        let mut way = Vec::new();
+        let end = field
+            .downhill(&problem)
+            .go(layout.id(from), |id| way.push(layout.cell(id)));
+        assert_eq!((layout.cell(end), way.len()), (root, 9));
+        assert!(problem.judge(&way).is_ok());
+        problem.apply(&[GridChange::Blocked(vec![way[3]])]).unwrap();
+        let end = field.downhill(&problem).go(layout.id(from), |_| {});
+        assert_eq!(layout.cell(end), way[2]);
+    }
+
+    #[test]
+    fn a_blocked_root_is_alone() {
+        let problem =
+            GridProblem::new(Grid::parse("#.").unwrap(), Cell::new(0, 0), Cell::new(1, 0));
+        let problem = problem.unwrap();
+        let values = swept(&problem, Cell::new(0, 0));
+        let layout = problem.grid().layout();
+        assert_eq!(values[layout.id(Cell::new(0, 0)) as usize], 0);
+        assert_eq!(values[layout.id(Cell::new(1, 0)) as usize], u32::MAX);
+    }
+}

@@ -1,0 +1,219 @@
+//! Every answer of the altitude field against an oracle, settled and not.
+#![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
+
+use pf_conformance::{
+    grid::{Kind, Recipe, drawing, oracle, random_batch, random_problem},
+    seeded,
+};
+use pf_core::{Context, Outcome, PlanRng, Planner, Problem, Replanner, Report};
+use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem, Moves};
+use pf_rfd::{RfdField, RfdFieldParams};
+use rand::RngExt;
+use std::collections::BTreeMap;
+
+#[track_caller]
+fn proven(problem: &GridProblem, report: &Report<GridProblem>) -> Option<GridCost> {
+    match &report.outcome {
+        Outcome::Optimal(best) => {
+            assert_eq!(problem.judge(&best.solution), Ok(best.cost));
+            Some(best.cost)
+        }
+        Outcome::Infeasible => None,
+        other => panic!("{} proves nothing", other.word()),
+    }
+}
+
+/// Square blocks, strewn.
+fn mosaic(rng: &mut PlanRng, size: u32, dearest: u8) -> Grid {
+    let tile = (size / 10).max(1);
+    let seed: Vec<bool> = (0..400).map(|_| rng.random_bool(0.3)).collect();
+    let at = |cell: Cell| seed[((cell.y / tile % 20) * 20 + cell.x / tile % 20) as usize];
+    Grid::new(size, size, |cell| match at(cell) {
+        true => 0,
+        false => rng.random_range(1..=dearest),
+    })
+    .unwrap()
+}
+
+/// Walls from side to side, each with a gap at alternate ends.
+fn alley(rng: &mut PlanRng, size: u32, dearest: u8) -> Grid {
+    let apart = rng.random_range(3..=(size / 3).max(3));
+    let gap = rng.random_range(1..=size / 4);
+    Grid::new(size, size, |cell| {
+        let along = match cell.x / apart % 2 {
+            0 => cell.y,
+            _ => size - 1 - cell.y,
+        };
+        match cell.x % apart == apart - 1 && along >= gap {
+            true => 0,
+            false => rng.random_range(1..=dearest),
+        }
+    })
+    .unwrap()
+}
+
+fn any_cell(rng: &mut PlanRng, grid: &Grid) -> Cell {
+    Cell::new(
+        rng.random_range(0..grid.width()),
+        rng.random_range(0..grid.height()),
+    )
+}
+
+fn free_cell(rng: &mut PlanRng, grid: &Grid) -> Cell {
+    (0..99)
+        .map(|_| any_cell(rng, grid))
+        .find(|&cell| grid.is_free(cell))
+        .unwrap_or_default()
+}
+
+fn some_problem(rng: &mut PlanRng, story: u32) -> GridProblem {
+    let moves = Moves::ALL[story as usize / 4 % 4];
+    let size = match story % 40 {
+        7 | 18 | 29 => 150..=200,
+        n if n % 5 == 0 => 60..=100,
+        _ => 20..=40,
+    };
+    let terrain = story % 3 == 2;
+    let kind = match story % 4 {
+        0 => Kind::Noise,
+        1 => Kind::Maze,
+        kind => {
+            let size = rng.random_range(size);
+            let dearest = if terrain { 4 } else { 1 };
+            let grid = if kind == 2 { mosaic } else { alley }(rng, size, dearest);
+            let (start, goal) = (free_cell(rng, &grid), free_cell(rng, &grid));
+            return GridProblem::new(grid, start, goal)
+                .unwrap()
+                .with_moves(moves);
+        }
+    };
+    let density = rng.random_range(0.05..0.35);
+    random_problem(
+        rng,
+        &Recipe {
+            kind,
+            size,
+            density,
+            terrain,
+            moves,
+        },
+    )
+}
+
+/// So many cells around one, or anywhere.
+fn cells(rng: &mut PlanRng, grid: &Grid, count: u32) -> Vec<Cell> {
+    let middle = any_cell(rng, grid);
+    let reach = [2, 6, 400][rng.random_range(0..3usize)];
+    (0..count)
+        .map(|_| {
+            let off = |rng: &mut PlanRng, at: u32, size: u32| {
+                let least = at.saturating_sub(reach);
+                rng.random_range(least..=(at + reach).min(size - 1))
+            };
+            let x = off(rng, middle.x, grid.width());
+            Cell::new(x, off(rng, middle.y, grid.height()))
+        })
+        .collect()
+}
+
+/// One kind of thing that happens, or many at once.
+fn some_event(rng: &mut PlanRng, problem: &GridProblem, path: &[Cell]) -> Vec<GridChange> {
+    let grid = problem.grid();
+    let count = [1, 3, 10, 40, 200][rng.random_range(0..5usize)];
+    match rng.random_range(0..12) {
+        0 => vec![GridChange::GoalMoved(free_cell(rng, grid))],
+        1 => vec![GridChange::StartMoved(free_cell(rng, grid))],
+        2 => vec![
+            GridChange::StartMoved(free_cell(rng, grid)),
+            GridChange::GoalMoved(free_cell(rng, grid)),
+        ],
+        3 | 4 => vec![GridChange::Blocked(cells(rng, grid, count))],
+        5 if path.len() > 2 => {
+            let at = rng.random_range(1..path.len() - 1);
+            vec![GridChange::Blocked(path[at..=at].to_vec())]
+        }
+        6 | 7 => vec![GridChange::Freed(cells(rng, grid, count))],
+        8 if !grid.is_uniform() => vec![GridChange::CostChanged(cells(rng, grid, count), 3)],
+        9 if path.len() > 5 => vec![
+            GridChange::StartMoved(path[path.len() / 5]),
+            GridChange::Blocked(cells(rng, grid, count.min(40))),
+        ],
+        _ => random_batch(rng, problem, 200),
+    }
+}
+
+/// Plays events and counts how the answers came; settles before an event as often as `settle` says.
+fn play(seed: u64, events: u32, settle: f64) -> BTreeMap<String, u32> {
+    let mut rng = seeded(seed);
+    let mut ways = BTreeMap::new();
+    for story in 0..events / 25 {
+        let mut problem = some_problem(&mut rng, story);
+        let params = RfdFieldParams {
+            patience: [0.2, 0.0, f64::INFINITY][story as usize % 3],
+        };
+        let mut planner = RfdField::new(params).unwrap();
+        let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        assert_eq!(proven(&problem, &report), oracle(&problem));
+        let mut path = Vec::new();
+        for event in 0..25 {
+            if rng.random_bool(settle) {
+                planner.settle(&problem, &mut Context::seeded(0));
+            }
+            let before = drawing(&problem);
+            let changes = some_event(&mut rng, &problem, &path);
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            let way = report.note("replanned").unwrap_or("hopeless");
+            *ways.entry(way.to_owned()).or_default() += 1;
+            assert_eq!(
+                proven(&problem, &report),
+                oracle(&problem),
+                "seed {seed}, story {story}, event {event}, {way}: {changes:?} led from\n{before} to\n{}",
+                drawing(&problem)
+            );
+            path = report
+                .outcome
+                .solved()
+                .map_or_else(Vec::new, |best| best.solution.clone());
+        }
+    }
+    ways
+}
+
+/// Each way of answering has to come up often for a test to say much.
+#[track_caller]
+fn often(ways: &BTreeMap<String, u32>, least: &[(&str, u32)]) {
+    for &(way, least) in least {
+        assert!(ways.get(way) > Some(&least), "too few are {way}: {ways:?}");
+    }
+}
+
+#[test]
+fn ten_thousand_answers_of_settled_fields_are_the_best() {
+    let ways = play(50, 10_000, 1.0);
+    often(
+        &ways,
+        &[
+            ("kept", 4000),
+            ("patched", 150),
+            ("searched", 1500),
+            ("afresh", 100),
+        ],
+    );
+}
+
+#[test]
+fn ten_thousand_answers_of_fields_settled_now_and_then_or_never_are_the_best() {
+    let ways = play(51, 5000, 0.3);
+    often(
+        &ways,
+        &[
+            ("kept", 1000),
+            ("patched", 30),
+            ("searched", 300),
+            ("afresh", 100),
+        ],
+    );
+    let ways = play(52, 5000, 0.0);
+    often(&ways, &[("kept", 500), ("searched", 200), ("afresh", 1000)]);
+}
