@@ -1,8 +1,10 @@
 //! One seed, one trace: what each planner looks at, in which order, and what it answers.
 
+use pf_abc::{Abc, AbcParams};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{AStar, DStarLite, Dijkstra};
 use pf_core::{Context, Event, Planner, Problem, Replanner, Report};
+use pf_geom::{Point, Rectangle, World, WorldProblem};
 use pf_grid::{Cell, Grid, GridChange, GridProblem, Moves};
 use pf_rfd::{Rfd, RfdExact, RfdField, RfdParams, RfdStar, RfdStarParams};
 use pf_tests::golden;
@@ -174,4 +176,52 @@ fn golden_traces_of_ants() {
     };
     let mut star = AcoStar::new(params).expect("sound parameters");
     golden::check("aco-star", &trace(&mut star, Moves::default()));
+}
+
+/// Out of a pocket: every step, and the colony at the last.
+#[test]
+fn golden_traces_of_bees() {
+    let point = |(x, y): (f64, f64)| Point::new(x, y);
+    let block = |a, b| Rectangle::new(point(a), point(b)).expect("a rectangle");
+    let walls = [
+        block((6.0, 3.0), (9.0, 4.0)),
+        block((6.0, 8.0), (9.0, 9.0)),
+        block((9.0, 3.0), (10.0, 9.0)),
+    ];
+    let world = World::with_shapes(block((0.0, 0.0), (14.0, 12.0)), walls.map(Into::into));
+    let problem = WorldProblem::new(world, 0.2, point((2.0, 6.0)), point((12.0, 6.0)));
+    let problem = problem.expect("points of the world");
+    for (name, params) in [
+        ("abc", AbcParams::default()),
+        ("abc-paper", AbcParams::paper()),
+    ] {
+        let params = AbcParams {
+            sources: 4,
+            cycles: 2,
+            steps: 120,
+            w2: 0.1,
+            ..params
+        };
+        let mut lines = vec![name.to_owned(), String::new()];
+        let mut listen = |event: &Event<'_, WorldProblem>| {
+            let at = |p: &Point| format!("{:.9},{:.9}", p.x, p.y);
+            match event {
+                Event::Expanded(place) => lines.push(format!("step to {}", at(place))),
+                Event::Points { name, at: places } => {
+                    let places: Vec<_> = places.iter().map(at).collect();
+                    lines.push(format!("{name} {}", places.join(" ")));
+                }
+                _ => {}
+            }
+        };
+        let mut planner = Abc::new(params).expect("sound parameters");
+        let mut cx = Context::seeded(7).traced(&mut listen);
+        let report = planner.plan(&problem, &mut cx).expect("supported");
+        let (word, n) = (report.outcome.word(), report.stats.iterations);
+        lines.push(format!(
+            "{word} in {n} iterations, {} evaluated",
+            report.stats.evaluated
+        ));
+        golden::check(name, &(lines.join("\n") + "\n"));
+    }
 }

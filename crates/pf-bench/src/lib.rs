@@ -11,6 +11,7 @@ mod grid;
 mod memory;
 mod protocol;
 mod replan;
+mod walk;
 mod waypoints;
 mod worlds;
 
@@ -35,6 +36,8 @@ enum Suite {
     Memory(memory::Args),
     /// Latency and upkeep after changes of map or query, beside a fresh A*
     Replan(replan::Args),
+    /// A step of the bees, by the length of the walk and the size of the world
+    Walk(walk::Args),
     /// Waypoints by L-BFGS and by swarms, beside argmin's L-BFGS on the same loss
     Waypoints(waypoints::Args),
     /// Kernels, shortest paths and changes among shapes, and their peers
@@ -63,6 +66,7 @@ pub fn run(counter: Option<Counter>) -> Result<()> {
         Suite::Grid(args) => grid::run(&args, counter),
         Suite::Memory(args) => memory::run(&args),
         Suite::Replan(args) => replan::run(&args),
+        Suite::Walk(args) => walk::run(&args, counter),
         Suite::Waypoints(args) => waypoints::run(&args),
         Suite::Worlds(args) => worlds::run(&args),
     }

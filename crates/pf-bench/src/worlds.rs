@@ -105,7 +105,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 }
 
 /// The square in which `count` shapes lie at a spacing of 10.
-fn square(count: u32) -> Rectangle {
+pub(crate) fn square(count: u32) -> Rectangle {
     let side = 10.0 * f64::from(count).sqrt();
     let corner = Point::new(side, side);
     Rectangle::new(Point::origin(), corner).unwrap_or_else(|_| unreachable!("it has a size"))
@@ -146,7 +146,7 @@ fn shape_in(rng: &mut PlanRng, centre: Point, radius: f64, round: bool) -> Shape
 }
 
 /// Shapes that keep apart, in the square of that many.
-fn shapes(rng: &mut PlanRng, count: u32, round: bool) -> Vec<Shape> {
+pub(crate) fn shapes(rng: &mut PlanRng, count: u32, round: bool) -> Vec<Shape> {
     let bounds = square(count);
     let mut circles: Vec<(Point, f64)> = Vec::new();
     while circles.len() < count as usize {

@@ -19,7 +19,9 @@ mod report;
 mod scen;
 mod spot;
 mod text;
+mod tune;
 mod view;
+mod walk;
 mod words;
 
 use clap::{Parser, Subcommand};
@@ -42,6 +44,7 @@ Examples:
   pf plan arena.map --scen arena.map.scen
   pf replan door.toml --planner d-star-lite --json
   pf drive maze.map --sensor 10 --svg drive.svg
+  pf walk maps/scenarios/busy-square.toml --png walk.png
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed
@@ -56,8 +59,12 @@ enum Verb {
     Replan(replan::Args),
     /// Drive a robot with a sensor through a map it does not know
     Drive(drive::Args),
+    /// Walk a robot through a world it does not know, step by step, while things happen there
+    Walk(walk::Args),
     /// Run the experiment of a paper again
     Paper(paper::Args),
+    /// Search the weights by which bees walk short ways that arrive
+    Tune(tune::Args),
     /// List the planners
     Planners(planners::Args),
     /// Compare all planners on a few maps and draw pictures
@@ -78,6 +85,8 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Plan(args) => plan::act(&args, &cancel),
         Verb::Replan(args) => replan::act(&args, &cancel),
         Verb::Drive(args) => drive::act(&args, &cancel),
+        Verb::Walk(args) => walk::act(&args, &cancel),
+        Verb::Tune(args) => tune::act(&args, &cancel),
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),

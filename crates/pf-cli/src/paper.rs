@@ -4,7 +4,7 @@ use crate::failure::{Failure, Status};
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
 use pf_papers::{
-    PaperError, faustino, kim,
+    PaperError, cabc, faustino, kim,
     page::{Figure, write_report},
     redlarski::{self, tune},
     row::{Row, tables},
@@ -29,6 +29,8 @@ enum Paper {
     Kim(KimArgs),
     /// Swarms of waypoints round one obstacle
     Faustino(FaustinoArgs),
+    /// Bees that walk two unknown maps: seven tables, and what a memory does for them
+    Cabc(CabcArgs),
     /// Rivers and ants on nine grids: five tables
     Redlarski(RedlarskiArgs),
     /// Search parameters for RFD* on made-up maps, and check them on the paper's nine
@@ -49,6 +51,18 @@ struct FaustinoArgs {
     /// Scenes for each format of obstacle and number of particles, besides the paper's 240 runs
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     runs: u32,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(clap::Args)]
+struct CabcArgs {
+    /// Runs of each row; the first 20 or 30 of them are compared with the paper's, too
+    #[arg(long, value_name = "N", default_value_t = 200, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    /// How many rows are run at a time; only times depend on it
+    #[arg(long, value_name = "N", default_value = "1")]
+    threads: NonZeroUsize,
     #[command(flatten)]
     output: Output,
 }
@@ -110,6 +124,7 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     let done = match &args.paper {
         Paper::Kim(args) => act_kim(args, cancel),
         Paper::Faustino(args) => act_faustino(args, cancel),
+        Paper::Cabc(args) => act_cabc(args, cancel),
         Paper::Redlarski(args) => act_redlarski(args, cancel),
         Paper::RedlarskiTune(args) => act_tune(args, cancel),
     };
@@ -168,6 +183,21 @@ fn act_faustino(args: &FaustinoArgs, cancel: &CancelToken) -> Result<(), Stopped
     bar.finish_and_clear();
     args.output
         .put("Swarms of waypoints", &rows?, faustino::figures)
+}
+
+fn act_cabc(args: &CabcArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    let options = cabc::Options {
+        runs: args.runs,
+        threads: args.threads,
+        cancel: cancel.clone(),
+    };
+    let bar = bar();
+    let rows = cabc::run(&options, &mut |done, all, what| {
+        tell(&bar, done, all, what);
+    });
+    bar.finish_and_clear();
+    let title = "Bees that walk an unknown map";
+    args.output.put(title, &rows?, cabc::figures)
 }
 
 impl Output {

@@ -93,6 +93,29 @@ pub(crate) fn read(file: &Path, args: &QuestionArgs) -> Result<Vec<Question>, Fa
     }
 }
 
+/// The only question of a file; a case that follows another begins where that one stood.
+pub(crate) fn one(file: &Path, args: &QuestionArgs) -> Result<Question, Failure> {
+    let mut questions = if is_scenario(kind_of(file)?) {
+        cases(file, args, true)?
+    } else {
+        read(file, args)?
+    };
+    if questions.len() > 1 {
+        let names: Vec<_> = questions.iter().filter_map(|q| q.case.as_deref()).collect();
+        let help = format!("choose one with --case: {}", names.join(", "));
+        let message = format!("{} asks several questions", file.display());
+        return Err(Failure::usage(message).help(help));
+    }
+    let none = || Failure::usage(format!("{} asks nothing", file.display()));
+    questions.pop().ok_or_else(none)
+}
+
+/// For verbs that need shapes.
+pub(crate) fn no_world(file: &Path) -> Failure {
+    let message = format!("{} is a grid, not a world of shapes", file.display());
+    Failure::usage(message).help("on grids there is `pf drive`")
+}
+
 fn on_grid(file: &Path, args: &QuestionArgs) -> Result<Question, Failure> {
     if args.case.is_some() {
         let message = format!("--case: {} is a map, not a scenario", file.display());

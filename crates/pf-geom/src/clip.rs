@@ -154,13 +154,11 @@ impl Clipper {
                 let gap = |k: usize| ahead(exit, self.chains[k].entry);
                 let next = open.min_by(|&a, &b| gap(a).total_cmp(&gap(b)));
                 at = next.unwrap_or(first);
-                let mut between: Vec<(f64, Point)> = window
-                    .iter()
-                    .map(|&corner| (ahead(exit, self.way_round(corner)), corner))
-                    .filter(|&(way, _)| 0.0 < way && way < gap(at))
-                    .collect();
-                between.sort_by(|a, b| a.0.total_cmp(&b.0));
-                self.corners.extend(between.into_iter().map(|(_, p)| p));
+                let mut round = window.map(|p| (ahead(exit, self.way_round(p)), p));
+                round.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+                let upto = gap(at);
+                let between = round.iter().filter(|&&(way, _)| 0.0 < way && way < upto);
+                self.corners.extend(between.map(|&(_, p)| p));
             }
             if self.ends.last().copied().unwrap_or(0) < self.corners.len() {
                 self.ends.push(self.corners.len());

@@ -290,17 +290,29 @@ fn by_place(a: &Shape, b: &Shape) -> Ordering {
         Shape::Rectangle(_) => 1,
         Shape::Polygon(_) => 2,
     };
-    let corners = |shape: &Shape| match shape {
-        Shape::Polygon(p) => p.corners().iter().flat_map(|c| [c.x, c.y]).collect(),
-        _ => Vec::new(),
-    };
-    in_order(&boxes(a), &boxes(b))
+    in_order(boxes(a), boxes(b))
         .then_with(|| kind(a).cmp(&kind(b)))
-        .then_with(|| in_order(&corners(a), &corners(b)))
+        .then_with(|| in_order(corners(a), corners(b)))
 }
 
-fn in_order(a: &[f64], b: &[f64]) -> Ordering {
-    let mut pairs = a.iter().zip(b).map(|(a, b)| a.total_cmp(b));
-    let first = pairs.find(|order| order.is_ne());
-    first.unwrap_or_else(|| a.len().cmp(&b.len()))
+/// The coordinates of a polygon's corners, one after the other.
+fn corners(shape: &Shape) -> impl Iterator<Item = f64> {
+    let corners = match shape {
+        Shape::Polygon(p) => p.corners(),
+        _ => &[],
+    };
+    corners.iter().flat_map(|c| [c.x, c.y])
+}
+
+fn in_order(a: impl IntoIterator<Item = f64>, b: impl IntoIterator<Item = f64>) -> Ordering {
+    let (mut a, mut b) = (a.into_iter(), b.into_iter());
+    loop {
+        match (a.next(), b.next()) {
+            (Some(x), Some(y)) => match x.total_cmp(&y) {
+                Ordering::Equal => {}
+                differ => return differ,
+            },
+            (x, y) => return x.is_some().cmp(&y.is_some()),
+        }
+    }
 }

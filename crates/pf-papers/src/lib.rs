@@ -4,9 +4,11 @@
 //! whether it was reproduced, and draws the paper's figures. What it finds, and what the paper leaves
 //! open, stands in `docs/papers/`.
 
+pub mod cabc;
 pub mod faustino;
 pub mod kim;
 pub mod page;
+mod parallel;
 mod plot;
 pub mod redlarski;
 pub mod row;

@@ -1,6 +1,7 @@
 //! The list itself.
 
 use crate::{AnyEntry, Entry, UnknownPlanner, entry::entry};
+use pf_abc::{Abc, AbcParams};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{
     AStar, AStarParams, Auto, AutoParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams,
@@ -32,6 +33,7 @@ static WORLD: &[Entry<WorldProblem>] = &[
     entry!(replans "visibility-graph", VisibilityGraph, VisibilityGraphParams, "Lozano-Perez, Wesley 1979; Liu, Arimoto 1992"),
     entry!(replans "pso", Pso, PsoParams, "Waypoint-Based Path Planning for Autonomous Robots with PSO"),
     entry!(replans "lbfgs", Lbfgs, LbfgsParams, "Real-Time Pathfinding in Dynamic Open World Conditions via L-BFGS Optimization"),
+    entry!(replans "abc", Abc, AbcParams, "Dynamic pathfinding for uncrewed vehicles by a constrained artificial bee colony; after Korf 1990"),
 ];
 
 /// The planners on grids, each as a replanner; those that only plan start over

@@ -266,7 +266,7 @@ fn planners_are_listed() {
     assert!(names.starts_with(&["dijkstra", "astar", "d-star-lite"]));
     for object in &objects {
         let in_worlds =
-            ["visibility-graph", "pso", "lbfgs"].contains(&object["name"].as_str().unwrap());
+            ["visibility-graph", "pso", "lbfgs", "abc"].contains(&object["name"].as_str().unwrap());
         assert_eq!(object["problem"], if in_worlds { "world" } else { "grid" });
         assert!(object["claims"].is_array() && object["paper"].is_string());
     }

@@ -10,6 +10,7 @@ mod shapes;
 mod strategies;
 mod suite;
 mod tight;
+mod traps;
 mod waypoints;
 
 pub use batches::random_batch;
@@ -20,6 +21,7 @@ pub use oracle::{SLACK, Shortest, oracle};
 pub use roadmap::roadmap;
 pub use strategies::{changes_for, problems, shapes, stories, worlds};
 pub use suite::{Worlds, listing};
+pub use traps::{dead_end, nested_traps, spiral, trap_world};
 pub use waypoints::{Obstacles, quadrant_scene, waypoint_world};
 
 use crate::{Options, examine, examine_replanner, verdict::expect_all};
