@@ -279,6 +279,11 @@ impl<W: Word> Basin<W> {
         }
         self.log.clear();
         self.sides.iter_mut().for_each(|side| side.refresh(0));
+        // Memory that the next answer may want.
+        let layout = problem.grid().layout();
+        self.search.prepare(layout);
+        self.marks.clear(layout.len());
+        self.patch.prepare(layout);
         Found::Path
     }
 
