@@ -92,8 +92,9 @@ pub(super) struct Basin<W: Word> {
     /// Ends of the last question, and in how many questions running each was elsewhere than before.
     ends: [Cell; 2],
     moves: [u32; 2],
-    /// Expansions of the last sweep.
+    /// Expansions of the last sweep, and of answers since the fields were exact.
     effort: u64,
+    debt: u64,
 }
 
 impl<W: Word> Default for Basin<W> {
@@ -112,12 +113,15 @@ impl<W: Word> Default for Basin<W> {
             ends: [Cell::default(); 2],
             moves: [0; 2],
             effort: 0,
+            debt: 0,
         }
     }
 }
 
 /// An end that has moved in so many questions running gets no field.
 const RESTLESS: u32 = 2;
+/// And the other end's is repaired once answers have cost that part of a sweep.
+const DEBT: u64 = 8;
 
 impl<W: Word> Basin<W> {
     /// Bytes held.
@@ -164,6 +168,7 @@ impl<W: Word> Basin<W> {
         self.layout = Some(*problem.grid().layout());
         self.sides.iter_mut().for_each(|side| side.field.forget());
         self.log.clear();
+        self.debt = 0;
         self.answered = None;
         self.ends = [problem.start(), problem.goal()];
         self.moves = [0; 2];
@@ -253,6 +258,11 @@ impl<W: Word> Basin<W> {
                 wanted.push(self.ends[k]);
             }
         }
+        let is_restless = self.moves.iter().any(|&moves| moves >= RESTLESS);
+        if is_restless && self.debt < self.effort / DEBT {
+            // They answer as they are for now.
+            return Found::Path;
+        }
         let roots = |sides: &[Side<W>; 2]| {
             [0, 1].map(|k: usize| sides[k].field.basis().map(|(root, _)| root))
         };
@@ -278,6 +288,7 @@ impl<W: Word> Basin<W> {
             }
         }
         self.log.clear();
+        self.debt = 0;
         self.sides.iter_mut().for_each(|side| side.refresh(0));
         // Memory that the next answer may want.
         let layout = problem.grid().layout();
@@ -354,7 +365,9 @@ impl<W: Word> Basin<W> {
             return (Found::TooFar, How::Afresh);
         }
         self.layout = Some(*problem.grid().layout());
+        let before = cx.stats().expanded;
         let (found, how) = self.find(problem, cx);
+        self.debt += cx.stats().expanded - before;
         if matches!(found, Found::Path | Found::Nothing) {
             self.answered = Some((problem.start(), problem.goal()));
             if found == Found::Nothing {
