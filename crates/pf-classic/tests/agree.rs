@@ -1,6 +1,6 @@
 //! All planners on grids say the same, a million times.
 
-use pf_classic::{AStar, DStarLite, Dijkstra};
+use pf_classic::{AStar, DStarLite, Dijkstra, Jps};
 use pf_conformance::{
     grid::{Recipe, drawing, random_batch, random_problem},
     seeded,
@@ -9,7 +9,7 @@ use pf_core::{Context, Outcome, Planner, Problem, Replanner, Report};
 use pf_grid::{Cell, GridChange, GridCost, GridProblem};
 use rand::RngExt;
 
-const MAPS: u32 = 25_000;
+const MAPS: u32 = 36_000;
 const QUERIES: u32 = 40;
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -33,12 +33,16 @@ fn said(report: &Report<GridProblem>) -> Said {
 fn a_million_small_queries() {
     let mut rng = seeded(40);
     let (mut astar, mut dijkstra) = (AStar::default(), Dijkstra::default());
-    let mut solved = 0;
+    let (mut solved, mut jumped) = (0, 0);
     for map in 0..MAPS {
-        let recipe = Recipe::any(&mut rng, 1..=16);
+        let mut recipe = Recipe::any(&mut rng, 1..=16);
+        // Jump points need plain cells: three maps of four stay so.
+        let plain = map % 4 > 0;
+        recipe.terrain &= !plain;
         let mut problem = random_problem(&mut rng, &recipe);
         let mut repaired = DStarLite::default();
         repaired.plan(&problem, &mut Context::seeded(0)).unwrap();
+        let mut jumps = Jps::default();
         for query in 0..QUERIES {
             let grid = problem.grid();
             let (width, height) = (grid.width(), grid.height());
@@ -52,6 +56,8 @@ fn a_million_small_queries() {
             };
             if query % 2 == 1 {
                 changes.extend(random_batch(&mut rng, &problem, 10));
+                let keeps = |change: &_| !(plain && matches!(change, GridChange::CostChanged(..)));
+                changes.retain(keeps);
             }
             let revision = problem.revise(&changes).unwrap();
             let cx = || Context::seeded(0);
@@ -66,6 +72,19 @@ fn a_million_small_queries() {
                 "map {map}, query {query}: D* Lite, A*, Dijkstra say {all:?} on\n{}",
                 drawing(&problem)
             );
+            match jumps.replan(&revision, &mut cx()) {
+                Ok(report) => {
+                    let said = said(&report);
+                    assert_eq!(
+                        said,
+                        all[1],
+                        "map {map}, query {query}: JPS, A* on\n{}",
+                        drawing(&problem)
+                    );
+                    jumped += 1;
+                }
+                Err(unsupported) => assert!(!problem.grid().is_uniform(), "{unsupported}"),
+            }
             solved += u32::from(matches!(all[0], Said::Least(_)));
             if query % 7 == 0 {
                 repaired.settle(&problem, &mut cx());
@@ -73,4 +92,5 @@ fn a_million_small_queries() {
         }
     }
     assert!(solved > 200_000, "only {solved} have a path");
+    assert!(jumped > 1_000_000, "only {jumped} without terrain");
 }

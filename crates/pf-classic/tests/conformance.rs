@@ -1,6 +1,6 @@
 //! Every law that binds them.
 
-use pf_classic::{AStar, DStarLite, Dijkstra, VisibilityGraph};
+use pf_classic::{AStar, DStarLite, Dijkstra, Jps, VisibilityGraph};
 use pf_conformance::{grid, world};
 use pf_core::FromScratch;
 
@@ -17,6 +17,11 @@ fn dijkstra_keeps_the_laws() {
 #[test]
 fn d_star_lite_keeps_the_laws() {
     grid::check_replanner(DStarLite::default);
+}
+
+#[test]
+fn jump_point_search_keeps_the_laws() {
+    grid::check_replanner(Jps::default);
 }
 
 #[test]

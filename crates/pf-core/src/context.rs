@@ -26,6 +26,7 @@ impl CancelToken {
     }
 
     /// Whether someone asked.
+    #[inline]
     #[must_use]
     pub fn is_cancelled(&self) -> bool {
         self.0.load(Ordering::Relaxed)
@@ -67,6 +68,10 @@ impl Budget {
         self.time = Some(limit);
         self
     }
+    #[inline]
+    fn most_evaluations(&self) -> u64 {
+        self.evaluations.unwrap_or(u64::MAX)
+    }
     /// Until `token` is cancelled.
     #[must_use]
     pub fn cancel(mut self, token: &CancelToken) -> Self {
@@ -104,6 +109,8 @@ pub struct Context<'a, P: Problem> {
     trace: Option<&'a mut dyn Trace<P>>,
     stats: Stats,
     stop: Stop,
+    /// No iteration before this one need look at its number or at the clock.
+    calm_until: u64,
     notes: Vec<Note>,
     began: Duration,
     looked: Duration,
@@ -139,6 +146,7 @@ impl<'a, P: Problem> Context<'a, P> {
             trace: None,
             stats: Stats::default(),
             stop: Stop::Finished,
+            calm_until: 0,
             notes: Vec::new(),
             began: clock.now(),
             looked: Duration::ZERO,
@@ -174,14 +182,28 @@ impl<'a, P: Problem> Context<'a, P> {
     #[inline]
     pub fn proceed(&mut self) -> bool {
         let n = self.stats.iterations;
+        // One branch for everything: searches come here with every expansion.
+        let calm = (n < self.calm_until)
+            & (self.stats.evaluated < self.budget.most_evaluations())
+            & !self.budget.cancel.is_cancelled();
+        if !calm && !self.look(n) {
+            return false;
+        }
+        self.stats.iterations = n + 1;
+        true
+    }
+
+    /// Whether the budget allows the iteration after the first `n`.
+    #[cold]
+    fn look(&mut self, n: u64) -> bool {
+        self.calm_until = 0;
         if self.stop != Stop::Finished {
             return false;
         }
-        if self.budget.iterations.is_some_and(|max| n >= max) {
+        let most = self.budget.iterations.unwrap_or(u64::MAX);
+        if n >= most {
             self.stop = Stop::Iterations;
-        } else if let Some(max) = self.budget.evaluations
-            && self.stats.evaluated >= max
-        {
+        } else if self.stats.evaluated >= self.budget.most_evaluations() {
             self.stop = Stop::Evaluations;
         } else if self.budget.cancel.is_cancelled() {
             self.stop = Stop::Cancelled;
@@ -191,12 +213,14 @@ impl<'a, P: Problem> Context<'a, P> {
         if self.stop != Stop::Finished {
             return false;
         }
-        self.stats.iterations += 1;
+        self.calm_until = match self.budget.time {
+            Some(_) => most.min(self.next_look),
+            None => most,
+        };
         true
     }
 
     /// Looks often when iterations are slow and seldom when they are fast.
-    #[cold]
     fn look_at_clock(&mut self, limit: Duration, n: u64) {
         let now = self.elapsed();
         if now >= limit {
@@ -324,6 +348,7 @@ impl<'a, P: Problem> Context<'a, P> {
         self.rng = child.rng;
         self.stats = child.stats;
         self.stop = child.stop;
+        self.calm_until = 0;
         self.notes.append(&mut child.notes);
         result
     }

@@ -117,10 +117,10 @@ macro_rules! params {
                             let expected = concat!("a value of type ", stringify!($kind));
                             $crate::InvalidParams::bad(key, value, expected)
                         })?;
+                        Ok(())
                     })*
-                    _ => return Err($crate::InvalidParams::unknown::<Self>(key)),
+                    _ => Err($crate::InvalidParams::unknown::<Self>(key)),
                 }
-                Ok(())
             }
         }
     };

@@ -18,10 +18,11 @@ use crate::{DIRECTIONS, Moves};
 use std::{array, sync::OnceLock};
 
 /// For each arrival direction and set of free neighbours: the directions to go on in.
-pub(crate) type Successors = [[u8; 256]; 8];
+pub type Successors = [[u8; 256]; 8];
 
 /// The successors under `moves`; worked out at the first use.
-pub(crate) fn successors(moves: Moves) -> &'static Successors {
+#[must_use]
+pub fn successors(moves: Moves) -> &'static Successors {
     static TABLES: [OnceLock<Box<Successors>>; 4] = [const { OnceLock::new() }; 4];
     TABLES[moves as usize].get_or_init(|| table(moves))
 }

@@ -45,6 +45,7 @@ mod weights;
 mod word;
 
 pub use buckets::Buckets;
+pub use canonical::{Successors, successors};
 pub use cell::Cell;
 pub use clearance::Clearance;
 pub use cost::GridCost;

@@ -307,6 +307,45 @@ impl<W: Word> Search<W> {
         })
     }
 
+    /// Of the last search, which weighed `whole` from its start to its goal ([`Word::MAX`] if that was
+    /// out of reach): how far an id is from the start, and `true`; or a bound of it from below, and
+    /// `false`. [`Word::MAX`] if it is out of reach.
+    ///
+    /// `to_start` and `to_goal` are the heuristic's values for the two. It is a consistent heuristic
+    /// itself. A path over a cell whose distance is not known is no shorter than `whole`.
+    #[inline]
+    #[must_use]
+    pub fn estimate(&self, id: u32, whole: W, to_start: W, to_goal: W) -> (W, bool) {
+        let record = self.records[id as usize];
+        let reached = record.generation == self.generation;
+        if whole == W::MAX {
+            return (if reached { record.g } else { W::MAX }, true);
+        }
+        // Every cell over which a path was shorter than the whole was expanded at its least weight.
+        if reached && record.closed && record.g + to_goal <= whole {
+            return (record.g, true);
+        }
+        let over = whole.max(to_goal) - to_goal;
+        (to_start.max(over), false)
+    }
+
+    /// The neighbour over which an id is `left` from the last search's start, by a step that is
+    /// legal now, and what the step weighs; of several the first in the order of
+    /// [`DIRECTIONS`](crate::DIRECTIONS).
+    #[must_use]
+    pub fn next(&self, problem: &GridProblem, id: u32, left: W) -> Option<(u32, W)> {
+        let grid = problem.grid();
+        let offsets = grid.layout().offsets();
+        let weights = Weights::of(grid);
+        let legal = problem.moves().legal(grid.around_id(id));
+        (0..8).filter(|k| legal >> k & 1 == 1).find_map(|k: u32| {
+            let next = id.wrapping_add_signed(offsets[k as usize]);
+            let weight = weights.step(grid, id, next, k);
+            let rest = self.weight(next)?;
+            (rest < left && rest + weight == left).then_some((next, weight))
+        })
+    }
+
     /// Of the cells the last search reached, the one nearest `to` in a straight line; ties go to
     /// the upper, then the left one.
     #[must_use]

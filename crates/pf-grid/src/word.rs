@@ -15,6 +15,8 @@ use std::{
 pub trait Word:
     Copy + Ord + Debug + Default + Add<Output = Self> + Sub<Output = Self> + Send + Sync + 'static
 {
+    /// The least difference between two weights.
+    const ONE: Self;
     /// Weight of a straight step of unit cost.
     const STRAIGHT: Self;
     /// Weight of a diagonal step of unit cost.
@@ -47,6 +49,7 @@ macro_rules! word {
             reason = "one text for three widths"
         )]
         impl Word for $word {
+            const ONE: Self = 1;
             const STRAIGHT: Self = $straight;
             const DIAGONAL: Self = $diagonal;
             const LIMIT: Self = $straight * $diagonal;

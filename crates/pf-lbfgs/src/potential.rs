@@ -108,6 +108,14 @@ impl Bump {
     fn is_beside(&self, a: &[f64], b: &[f64]) -> bool {
         (0..2).any(|k| a[k].max(b[k]) <= self.min[k] || a[k].min(b[k]) >= self.max[k])
     }
+
+    /// Whether all between these corners is outside.
+    fn is_outside(&self, min: [f64; 2], max: [f64; 2]) -> bool {
+        max[0] <= self.min[0]
+            || min[0] >= self.max[0]
+            || max[1] <= self.min[1]
+            || min[1] >= self.max[1]
+    }
 }
 
 struct Height {
@@ -115,12 +123,53 @@ struct Height {
     gradient: [f64; 2],
 }
 
-/// Four samples at a time.
-#[derive(Clone, Copy)]
+/// Four samples, or samples of four segments, at a time.
+#[derive(Clone, Copy, Default)]
 struct Lanes {
     value: f64x4,
-    /// Gradient times the sample's share in the segment's end.
+    /// Gradient times the sample's share in the segment's ends: x and y of the first, of the second.
     gradient: [f64x4; 4],
+}
+
+/// Four segments of a path.
+struct Four {
+    /// By axis: where they begin, and what leads to where they end.
+    from: [f64x4; 2],
+    along: [f64x4; 2],
+    /// What holds them all.
+    min: [f64; 2],
+    max: [f64; 2],
+}
+
+/// A place that no bump reaches, from where the arithmetic stays finite.
+const NOWHERE: f64 = 1e20;
+
+impl Four {
+    /// The first four of a path, or as many as it has.
+    fn of(path: &[f64]) -> Self {
+        let points = (path.len() / 2).min(5);
+        let axis = |k: usize| {
+            let at = |n: usize| path[2 * n + k];
+            let mut from = [NOWHERE; 4];
+            let mut along = [0.0; 4];
+            let (mut min, mut max) = (at(0), at(0));
+            for n in 1..points {
+                from[n - 1] = at(n - 1);
+                along[n - 1] = at(n) - at(n - 1);
+                // Not f64::min, which minds NaN: three instructions more.
+                min = if at(n) < min { at(n) } else { min };
+                max = if at(n) > max { at(n) } else { max };
+            }
+            (f64x4::new(from), f64x4::new(along), min, max)
+        };
+        let (x, y) = (axis(0), axis(1));
+        Self {
+            from: [x.0, y.0],
+            along: [x.1, y.1],
+            min: [x.2, y.2],
+            max: [x.3, y.3],
+        }
+    }
 }
 
 impl Potential {
@@ -160,20 +209,27 @@ impl Potential {
         loss
     }
 
-    /// The same, four samples at a time.
+    /// The same, four segments at a time.
     pub(crate) fn loss_in_lanes(&self, path: &[f64], lambda: f64, gradient: &mut [f64]) -> f64 {
-        let thirds = f64x4::new([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]);
-        let mut loss = quadratic::loss(path, gradient);
-        for g in (0..path.len() - 2).step_by(2) {
-            let segment = &path[g..g + 4];
+        let mut loss = quadratic::loss_in_lanes(path, gradient);
+        let segments = path.len() / 2 - 1;
+        for first in (0..segments).step_by(4) {
+            let four = Four::of(&path[2 * first..]);
             let mut sum = None;
             for bump in &self.bumps {
-                if !bump.is_beside(&segment[..2], &segment[2..]) {
-                    bump.add_lanes(segment, thirds, None, &mut sum);
+                if !bump.is_outside(four.min, four.max) {
+                    bump.add_four(&four, sum.get_or_insert_with(Lanes::default));
                 }
             }
-            if let Some(sum) = sum {
-                loss += add(sum, lambda, &mut gradient[g..g + 4]);
+            let Some(sum) = sum else { continue };
+            loss += lambda * sum.value.reduce_add();
+            // A segment's end is where the next one begins.
+            let [ax, ay, bx, by] = sum.gradient.map(f64x4::to_array);
+            for (k, g) in (2 * first..path.len() - 2).step_by(2).take(4).enumerate() {
+                gradient[g] += lambda * ax[k];
+                gradient[g + 1] += lambda * ay[k];
+                gradient[g + 2] += lambda * bx[k];
+                gradient[g + 3] += lambda * by[k];
             }
         }
         loss
@@ -258,6 +314,26 @@ impl Potential {
 
 impl Bump {
     #[inline]
+    fn add_four(&self, four: &Four, sum: &mut Lanes) {
+        for k in 0..SAMPLES {
+            let t = f64::from(k) / f64::from(SAMPLES - 1);
+            let at = [0, 1].map(|axis| four.from[axis] + f64x4::splat(t) * four.along[axis]);
+            let Some((value, [gx, gy])) = self.heights(at, None) else {
+                continue;
+            };
+            let (first, second) = (f64x4::splat(1.0 - t), f64x4::splat(t));
+            sum.value += value;
+            for (into, share) in
+                sum.gradient
+                    .iter_mut()
+                    .zip([first * gx, first * gy, second * gx, second * gy])
+            {
+                *into += share;
+            }
+        }
+    }
+
+    #[inline]
     fn add_lanes(
         &self,
         segment: &[f64],
@@ -265,9 +341,29 @@ impl Bump {
         kick: Option<&mut PlanRng>,
         sum: &mut Option<Lanes>,
     ) {
+        let at = [0, 1]
+            .map(|k| f64x4::splat(segment[k]) + t * f64x4::splat(segment[k + 2] - segment[k]));
+        let Some((value, [gx, gy])) = self.heights(at, kick) else {
+            return;
+        };
+        let first = f64x4::ONE - t;
+        let sum = sum.get_or_insert_with(Lanes::default);
+        sum.value += value;
+        for (into, share) in sum
+            .gradient
+            .iter_mut()
+            .zip([first * gx, first * gy, t * gx, t * gy])
+        {
+            *into += share;
+        }
+    }
+
+    /// The height at four places and its gradient, with noise if somebody gives it chance; `None`
+    /// if none is inside.
+    #[inline]
+    fn heights(&self, at: [f64x4; 2], kick: Option<&mut PlanRng>) -> Option<(f64x4, [f64x4; 2])> {
         let along = |k: usize| {
-            let from = f64x4::splat(segment[k]) + t * f64x4::splat(segment[k + 2] - segment[k])
-                - f64x4::splat(self.peak[k]);
+            let from = at[k] - f64x4::splat(self.peak[k]);
             let scale = from
                 .simd_lt(f64x4::ZERO)
                 .select(f64x4::splat(self.below[k]), f64x4::splat(self.above[k]));
@@ -278,7 +374,7 @@ impl Bump {
         let one = f64x4::ONE;
         let inside = x2.simd_lt(one) & y2.simd_lt(one);
         if inside.none() {
-            return;
+            return None;
         }
         let zero = f64x4::ZERO;
         let (qx, qy) = (one - x2, one - y2);
@@ -306,19 +402,7 @@ impl Bump {
                 gy += noise();
             }
         }
-        let first = one - t;
-        let sum = sum.get_or_insert(Lanes {
-            value: zero,
-            gradient: [zero; 4],
-        });
-        sum.value += e * px * py;
-        for (into, share) in sum
-            .gradient
-            .iter_mut()
-            .zip([first * gx, first * gy, t * gx, t * gy])
-        {
-            *into += share;
-        }
+        Some((e * px * py, [gx, gy]))
     }
 }
 

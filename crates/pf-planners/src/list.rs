@@ -3,8 +3,8 @@
 use crate::{AnyEntry, Entry, UnknownPlanner, entry::entry};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{
-    AStar, AStarParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams, VisibilityGraph,
-    VisibilityGraphParams,
+    AStar, AStarParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams, Jps, JpsParams,
+    VisibilityGraph, VisibilityGraphParams,
 };
 use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
@@ -17,6 +17,7 @@ use pf_rfd::{
 static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
     entry!(plans "astar", AStar, AStarParams, "Hart, Nilsson, Raphael 1968"),
+    entry!(replans "jps", Jps, JpsParams, "Harabor, Grastien 2011, 2014"),
     entry!(replans "d-star-lite", DStarLite, DStarLiteParams, "Koenig, Likhachev 2002"),
     entry!(replans "rfd", Rfd, RfdParams, "Rabanal, Rodriguez, Rubio 2007; Redlarski, Dabkowski, Palkowski"),
     entry!(replans "rfd-star", RfdStar, RfdStarParams, "Redlarski, Dabkowski, Palkowski"),

@@ -1,9 +1,8 @@
 //! Answers from what is known of the distances, in one word width.
 
+use super::distances::Distances;
 use pf_core::Context;
-use pf_grid::{
-    Cell, Damage, DistanceField, End, GridProblem, Route, Search, Upkeep, Weights, Word,
-};
+use pf_grid::{Cell, Damage, End, GridProblem, Route, Search, Upkeep, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -18,10 +17,21 @@ pub(super) enum Found {
     TooFar,
 }
 
-/// A distance field, what is known beside it, and a search from the start that both direct.
+/// How a [`Found`] was come by.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Way {
+    /// The last path is still best.
+    Kept,
+    /// A search from the start, directed by what was known.
+    Searched,
+    /// Distances made anew.
+    Afresh,
+}
+
+/// Distances to the goal, what is known beside them, and a search from the start that both direct.
 ///
-/// The field is not repaired before an answer. A search from the robot takes what the field says as
-/// its heuristic, as far as the changes since let it stand ([`Damage`]), and ends where the way on
+/// The distances are not repaired before an answer. A search from the robot takes them as its
+/// heuristic, as far as the changes since let it stand ([`Damage`]), and ends where the way on
 /// is known: on the last route, or below all damage. What such a search finds out about the cells
 /// it expanded is kept for the next one: no way from there is shorter than the answer less the way
 /// there.
@@ -31,7 +41,7 @@ pub(super) enum Found {
 /// ours.
 #[derive(Clone, Debug)]
 pub(super) struct Guided<W: Copy> {
-    pub(super) field: DistanceField<W>,
+    pub(super) distances: Distances<W>,
     search: Search<W>,
     route: Route<W>,
     damage: Damage<W>,
@@ -46,14 +56,14 @@ pub(super) struct Guided<W: Copy> {
     closed: Vec<u32>,
     /// The weight of what it found; [`Word::MAX`] if nothing.
     whole: W,
-    /// Ids on the way down the field.
+    /// Ids on the way down the distances.
     tail: Vec<u32>,
 }
 
 impl<W: Word> Default for Guided<W> {
     fn default() -> Self {
         Self {
-            field: DistanceField::default(),
+            distances: Distances::default(),
             search: Search::default(),
             route: Route::default(),
             damage: Damage::default(),
@@ -70,7 +80,7 @@ impl<W: Word> Default for Guided<W> {
 impl<W: Word> Guided<W> {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.field.bytes()
+        self.distances.bytes()
             + self.search.bytes()
             + self.route.bytes()
             + self.damage.bytes()
@@ -79,22 +89,41 @@ impl<W: Word> Guided<W> {
                 * (self.learners.capacity() + self.closed.capacity() + self.tail.capacity())
     }
 
-    /// Makes the field anew and takes the answer from it.
+    /// Makes the distances anew and takes the answer from them.
     pub(super) fn plan(
         &mut self,
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Found {
-        if !DistanceField::<W>::fits(problem) {
+        if !fits::<W>(problem) {
             return Found::TooFar;
         }
         self.begin(problem);
-        let end = self.field.plan(problem, cx);
-        self.read_off(problem, end)
+        match self.distances.plan(problem, cx) {
+            End::Goal(_) | End::Exhausted => self.read_off(problem),
+            End::Cut => Found::Cut,
+            End::TooFar => Found::TooFar,
+        }
     }
 
-    /// Repairs the field after all that changed since it was settled, and takes the answer from it;
-    /// `None` if that took too much.
+    /// The same with distances that can be repaired.
+    pub(super) fn found(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Found {
+        if !fits::<W>(problem) {
+            return Found::TooFar;
+        }
+        self.begin(problem);
+        match self.distances.found(problem, cx) {
+            Upkeep::Cut => Found::Cut,
+            _ => self.read_off(problem),
+        }
+    }
+
+    /// Repairs the distances after all that changed since they were right, and takes the answer from
+    /// them; `None` if that took too much.
     pub(super) fn repair(
         &mut self,
         problem: &GridProblem,
@@ -103,9 +132,10 @@ impl<W: Word> Guided<W> {
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Found> {
         self.begin(problem);
-        match self.field.repair(problem, changed, most, cx) {
+        match self.distances.repair(problem, changed, most, cx) {
             Upkeep::GaveUp => None,
-            end => Some(self.read_off(problem, end)),
+            Upkeep::Cut => Some(Found::Cut),
+            Upkeep::Settled => Some(self.read_off(problem)),
         }
     }
 
@@ -119,7 +149,7 @@ impl<W: Word> Guided<W> {
     /// Does what can be done before the next answer is asked for.
     pub(super) fn prepare(&mut self, problem: &GridProblem) {
         self.learn();
-        self.field.prepare(problem);
+        self.distances.prepare(problem);
     }
 
     /// Nothing changed yet.
@@ -137,16 +167,13 @@ impl<W: Word> Guided<W> {
         self.basis = Some((problem.goal(), Weights::of(problem.grid())));
     }
 
-    fn read_off(&mut self, problem: &GridProblem, end: Upkeep) -> Found {
-        if end == Upkeep::Cut {
-            return Found::Cut;
-        }
-        if self.field.is_too_narrow(problem.start()) {
+    fn read_off(&mut self, problem: &GridProblem) -> Found {
+        if self.distances.are_too_narrow(problem.start()) {
             return Found::TooFar;
         }
         let layout = problem.grid().layout();
         let start = layout.id(problem.start());
-        match self.field.settled() {
+        match self.distances.settled() {
             Some((_, whole)) if whole < W::MAX => {
                 self.go_down(problem, start, whole);
                 Found::Path
@@ -161,25 +188,23 @@ impl<W: Word> Guided<W> {
         problem: &GridProblem,
         changed: &[u32],
         cx: &mut Context<'_, GridProblem>,
-    ) -> Found {
-        let grid = problem.grid();
-        let now = Weights::of(grid);
-        if !now.fit::<W>(grid, 2) {
-            return Found::TooFar;
+    ) -> (Found, Way) {
+        if !fits::<W>(problem) {
+            return (Found::TooFar, Way::Afresh);
         }
         self.learn();
         if self.knows(problem) {
             self.note(problem, changed);
-        } else {
-            self.field.forget();
-            self.begin(problem);
+            let start = problem.grid().layout().id(problem.start());
+            if self.still_best(problem, start) {
+                self.route.cut_to(start, problem.start());
+                return (Found::Path, Way::Kept);
+            }
+            if self.knows_more(problem, start) {
+                return (self.look(problem, cx), Way::Searched);
+            }
         }
-        let start = grid.layout().id(problem.start());
-        if self.still_best(problem, start) {
-            self.route.cut_to(start, problem.start());
-            return Found::Path;
-        }
-        self.look(problem, cx)
+        (self.plan(problem, cx), Way::Afresh)
     }
 
     fn note(&mut self, problem: &GridProblem, changed: &[u32]) {
@@ -196,11 +221,14 @@ impl<W: Word> Guided<W> {
             move |(a, b): (u32, u32)| (a.abs_diff(x), b.abs_diff(y))
         };
         let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
-        let field = &self.field;
+        let distances = &self.distances;
         let opened = self.damage.add(problem, changed, weights, |at, id| {
             let ((gx, gy), (sx, sy)) = (to_goal(at), to_start(at));
             let heuristic = apart.by(gx, gy);
-            (heuristic, field.estimate(id, heuristic, apart.by(sx, sy)).0)
+            (
+                heuristic,
+                distances.estimate(id, heuristic, apart.by(sx, sy)).0,
+            )
         });
         if opened {
             self.unlearn();
@@ -213,9 +241,9 @@ impl<W: Word> Guided<W> {
         }
     }
 
-    /// From where the field was settled.
+    /// For which start the distances were made.
     fn anchor(&self, problem: &GridProblem) -> Cell {
-        self.field
+        self.distances
             .settled()
             .map_or(problem.goal(), |(cell, _)| cell)
     }
@@ -245,7 +273,7 @@ impl<W: Word> Guided<W> {
             let estimate = || {
                 let to_goal = apart.by(x.abs_diff(goal_x), y.abs_diff(goal_y));
                 let to_start = apart.by(x.abs_diff(x0), y.abs_diff(y0));
-                (to_goal, self.field.estimate(id, to_goal, to_start))
+                (to_goal, self.distances.estimate(id, to_goal, to_start))
             };
             let least = opened.at((x, y), || {
                 let (to_goal, (least, _)) = estimate();
@@ -268,8 +296,7 @@ impl<W: Word> Guided<W> {
         let goal = layout.id(problem.goal());
         let mut search = std::mem::take(&mut self.search);
         let mut closed = std::mem::take(&mut self.closed);
-        let weights = Weights::of(problem.grid());
-        let end = if self.knows_more(problem) {
+        let end = {
             let bound = self.bound(problem);
             let heuristic = |id| Some(bound(id, false).0).filter(|&least| least < W::MAX);
             let most = self.route.most().unwrap_or_default();
@@ -288,10 +315,6 @@ impl<W: Word> Guided<W> {
                     .flatten()
             };
             search.run_until(problem, problem.start(), heuristic, arrive, cx)
-        } else {
-            // Nothing to learn from, which would cost a tenth: soon distances are made anew.
-            let octile = weights.octile(problem.grid(), problem.moves(), problem.goal());
-            search.run(problem, problem.start(), Some(problem.goal()), octile, cx)
         };
         self.closed = closed;
         self.search = search;
@@ -321,14 +344,13 @@ impl<W: Word> Guided<W> {
     }
 
     /// Whether what is known beats the plain heuristic by enough to pay for looking it up.
-    fn knows_more(&self, problem: &GridProblem) -> bool {
+    fn knows_more(&self, problem: &GridProblem, start: u32) -> bool {
         let grid = problem.grid();
-        let start = grid.layout().id(problem.start());
         let learnt = self.learnt.get(start as usize);
         if learnt.is_some_and(|&learnt| learnt > W::default()) {
             return true;
         }
-        let Some((_, whole)) = self.field.settled() else {
+        let Some((_, whole)) = self.distances.settled() else {
             return !self.learners.is_empty();
         };
         let octile = Weights::of(grid).octile::<W>(grid, problem.moves(), problem.goal());
@@ -336,7 +358,7 @@ impl<W: Word> Guided<W> {
     }
 
     /// Makes the route begin at an id from which so much is left: on from there along the route
-    /// that holds, or down the field until there.
+    /// that holds, or down the distances until there.
     fn go_down(&mut self, problem: &GridProblem, from: u32, mut left: W) {
         let layout = *problem.grid().layout();
         let goal = layout.id(problem.goal());
@@ -353,7 +375,7 @@ impl<W: Word> Guided<W> {
                 break;
             }
             self.tail.push(id);
-            let Some((next, weight)) = self.field.next(problem, id, left) else {
+            let Some((next, weight)) = self.distances.next(problem, id, left) else {
                 // Not to be reached; the judge would see it.
                 self.route.restart(id, cell);
                 break;
@@ -400,4 +422,10 @@ impl<W: Word> Guided<W> {
     pub(super) fn path(&self) -> Vec<Cell> {
         self.route.path()
     }
+}
+
+/// Whether keys of searches and fields fit the word: a distance, a heuristic, and what a robot that
+/// moved raises them by, which stays below the limit, too.
+fn fits<W: Word>(problem: &GridProblem) -> bool {
+    Weights::of(problem.grid()).fit::<W>(problem.grid(), 2)
 }

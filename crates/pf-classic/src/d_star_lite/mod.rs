@@ -1,8 +1,9 @@
 //! D* Lite (Koenig and Likhachev 2002): a search from the goal that is repaired, not repeated.
 
+mod distances;
 mod guided;
 
-use guided::{Found, Guided};
+use guided::{Found, Guided, Way};
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
@@ -134,12 +135,27 @@ impl DStarLite {
         guided!(&self.width, guided => guided.bytes()) + self.pending.capacity() * size_of::<u32>()
     }
 
-    /// Makes the distances anew.
-    fn refresh(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
+    /// Makes the distances anew, such as can be repaired if repairs are to come.
+    fn refresh(
+        &mut self,
+        problem: &GridProblem,
+        to_repair: bool,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Found {
         self.forget_changes();
         self.known = None;
         let before = cx.stats().expanded;
-        let found = self.in_width(|width| guided!(width, guided => guided.plan(problem, cx)));
+        let found = loop {
+            let found = guided!(&mut self.width, guided => if to_repair {
+                guided.found(problem, cx)
+            } else {
+                guided.plan(problem, cx)
+            });
+            if found != Found::TooFar {
+                break found;
+            }
+            self.width.widen();
+        };
         self.effort = cx.stats().expanded - before;
         if found != Found::Cut {
             self.known = Some(problem.stamp());
@@ -152,17 +168,6 @@ impl DStarLite {
         self.pending.clear();
         self.told = 0;
         self.debt = 0;
-    }
-
-    /// Works in the narrowest width that orders the paths there are exactly.
-    fn in_width(&mut self, mut work: impl FnMut(&mut Width) -> Found) -> Found {
-        loop {
-            let found = work(&mut self.width);
-            if found != Found::TooFar {
-                return found;
-            }
-            self.width.widen();
-        }
     }
 
     /// How many expansions a repair is worth.
@@ -184,7 +189,7 @@ impl DStarLite {
     ) -> Option<Found> {
         let most = self.patience();
         // Looking at a changed cell's surroundings costs no less than an expansion.
-        let serves = guided!(&self.width, guided => guided.field.serves(problem));
+        let serves = guided!(&self.width, guided => guided.distances.serve(problem));
         if !serves || self.pending.len() as u64 > most {
             return None;
         }
@@ -200,30 +205,28 @@ impl DStarLite {
     /// Answers from what is known of the distances, and says how.
     fn answer(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
         let before = cx.stats().expanded;
-        let pending = &self.pending;
-        let told = self.told;
-        let mut knew;
-        let found = loop {
-            let width = &mut self.width;
-            knew = guided!(width, guided => guided.knows(problem));
-            let found = guided!(width, guided => guided.answer(problem, &pending[told..], cx));
-            if found != Found::TooFar {
-                break found;
+        let changed = &self.pending[self.told..];
+        let (found, way) = loop {
+            let answer = guided!(&mut self.width, guided => guided.answer(problem, changed, cx));
+            if answer.0 != Found::TooFar {
+                break answer;
             }
             self.width.widen();
         };
-        self.told = self.pending.len();
         let expanded = cx.stats().expanded - before;
-        self.debt += expanded;
-        if !knew {
+        if way == Way::Afresh {
+            self.forget_changes();
             self.effort = expanded;
+        } else {
+            self.told = self.pending.len();
+            self.debt += expanded;
         }
         cx.note(
             "replanned",
-            match (knew, expanded) {
-                (false, _) => "afresh",
-                (true, 0) => "kept",
-                (true, _) => "searched",
+            match way {
+                Way::Kept => "kept",
+                Way::Searched => "searched",
+                Way::Afresh => "afresh",
             },
         );
         found
@@ -283,14 +286,14 @@ impl Planner<GridProblem> for DStarLite {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        if !guided!(&self.width, guided => guided.field.covers(problem)) {
+        if !guided!(&self.width, guided => guided.distances.cover(problem)) {
             self.width = Width::default();
         }
         if is_hopeless(problem) {
             self.known = None;
             return Ok(cx.report(Outcome::Infeasible));
         }
-        let found = self.refresh(problem, cx);
+        let found = self.refresh(problem, self.params.eager, cx);
         Ok(self.report(problem, found, cx))
     }
 }
@@ -336,7 +339,7 @@ impl Replanner<GridProblem> for DStarLite {
                 found
             } else {
                 cx.note("replanned", "afresh");
-                self.refresh(problem, cx)
+                self.refresh(problem, true, cx)
             };
             return Ok(self.report(problem, found, cx));
         }
@@ -362,7 +365,7 @@ impl Replanner<GridProblem> for DStarLite {
             && !is_hopeless(problem)
             && self.repair(problem, cx).is_none()
         {
-            self.refresh(problem, cx);
+            self.refresh(problem, true, cx);
         }
     }
 }

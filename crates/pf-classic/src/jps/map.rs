@@ -1,0 +1,256 @@
+//! Where straight scans stop, a bit per cell and direction.
+
+use pf_core::Stamp;
+use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, Successors, successors};
+
+/// For each straight direction a bit per cell, set where a scan in that direction stops: at blocked
+/// cells and at cells from which the search may go on elsewhere than straight on.
+///
+/// East and west lie in rows; south and north in columns, so that every scan runs along words of 64
+/// cells. A changed cell changes the bits of the nine cells around it.
+///
+/// Source: Harabor and Grastien, *Improving Jump Point Search*, 2014 (scans by words, a transposed
+/// copy); one word of bits made beforehand in the place of three rows looked at each time is ours.
+#[derive(Clone, Debug, Default)]
+pub(super) struct JumpMap {
+    made: Option<(Stamp, Moves, Layout)>,
+    /// By straight direction.
+    stops: [Vec<u64>; 4],
+    /// By set of free neighbours: the straight directions in which a scan stops at such a cell.
+    forced: Vec<u8>,
+    /// From one column to the next in the columns' bits.
+    pitch: u32,
+}
+
+/// A cell in both orders.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub(super) id: u32,
+    /// Its place in the columns' bits.
+    turned: u32,
+}
+
+/// A cell at which every scan stops, and the straight directions in which it did before.
+#[derive(Debug)]
+#[must_use]
+pub(super) struct Marked(Option<(Place, u8)>);
+
+impl JumpMap {
+    /// Whether it is that of this grid as it is.
+    pub(super) fn is_of(&self, grid: &Grid, moves: Moves) -> bool {
+        self.made == Some((grid.stamp(), moves, *grid.layout()))
+    }
+
+    /// Makes it for a grid.
+    pub(super) fn make(&mut self, grid: &Grid, moves: Moves) {
+        let layout = *grid.layout();
+        self.forced.clear();
+        self.forced
+            .extend((0..256).map(|around| Self::stops_of(successors(moves), around)));
+        self.pitch = layout.height() + 1;
+        let turned = (layout.width() as usize + 2) * self.pitch as usize + 1;
+        for (k, stops) in self.stops.iter_mut().enumerate() {
+            let ids = if k % 2 == 0 { layout.len() } else { turned };
+            stops.clear();
+            stops.resize(ids / 64 + 1, u64::MAX);
+        }
+        for cell in layout.cells() {
+            let id = layout.id(cell);
+            if grid.is_free_id(id) {
+                self.set(
+                    self.place(&layout, id),
+                    self.forced[usize::from(grid.around_id(id))],
+                );
+            }
+        }
+        self.made = Some((grid.stamp(), moves, layout));
+    }
+
+    /// Follows changes of cells on the grid it was made of.
+    pub(super) fn follow(&mut self, grid: &Grid, changed: impl Iterator<Item = Cell>) {
+        let Some((_, moves, layout)) = self.made else {
+            return;
+        };
+        for cell in changed {
+            let id = layout.id(cell);
+            for offset in layout.offsets().into_iter().chain([0]) {
+                let id = id.wrapping_add_signed(offset);
+                let stops = if grid.is_free_id(id) {
+                    self.forced[usize::from(grid.around_id(id))]
+                } else {
+                    0b1111
+                };
+                self.set(self.place(&layout, id), stops);
+            }
+        }
+        self.made = Some((grid.stamp(), moves, layout));
+    }
+
+    /// In which straight directions a scan stops at a free cell with these free neighbours.
+    fn stops_of(successors: &Successors, around: usize) -> u8 {
+        (0..4).fold(0, |stops, k| {
+            let elsewhere = successors[k][around] & !(1 << k) != 0;
+            stops | u8::from(elsewhere) << k
+        })
+    }
+
+    fn set(&mut self, place: Place, stops: u8) {
+        for (k, bits) in self.stops.iter_mut().enumerate() {
+            let at = place.of(k);
+            let bit = 1 << (at % 64);
+            if stops >> k & 1 == 1 {
+                bits[at / 64] |= bit;
+            } else {
+                bits[at / 64] &= !bit;
+            }
+        }
+    }
+
+    /// Lets every scan stop at a cell, as at a goal, until [`restore`](Self::restore).
+    pub(super) fn mark(&mut self, cell: Cell) -> Marked {
+        let Some((_, _, layout)) = self.made else {
+            return Marked(None);
+        };
+        let place = self.place(&layout, layout.id(cell));
+        let before = self.stops.iter().enumerate().fold(0, |stops, (k, bits)| {
+            let at = place.of(k);
+            stops | u8::from(bits[at / 64] >> (at % 64) & 1 == 1) << k
+        });
+        self.set(place, 0b1111);
+        Marked(Some((place, before)))
+    }
+
+    /// Undoes [`mark`](Self::mark).
+    pub(super) fn restore(&mut self, marked: Marked) {
+        if let Some((place, before)) = marked.0 {
+            self.set(place, before);
+        }
+    }
+
+    /// A cell by its id.
+    #[inline]
+    pub(super) fn place(&self, layout: &Layout, id: u32) -> Place {
+        let (x, y) = layout.position(id);
+        let turned = x * self.pitch + y;
+        Place { id, turned }
+    }
+
+    /// What a step in each direction adds to a [`Place`].
+    pub(super) fn steps(&self, layout: &Layout) -> [(i32, i32); 8] {
+        let offsets = layout.offsets();
+        std::array::from_fn(|k| {
+            let (dx, dy) = DIRECTIONS[k];
+            (offsets[k], dx * self.pitch.cast_signed() + dy)
+        })
+    }
+
+    /// How many steps a scan takes from a place in a straight direction until it stops: at least one.
+    #[inline]
+    pub(super) fn scan(&self, place: Place, k: usize) -> u32 {
+        match k {
+            0 => ahead(&self.stops[0], place.id),
+            1 => ahead(&self.stops[1], place.turned),
+            2 => behind(&self.stops[2], place.id),
+            _ => behind(&self.stops[3], place.turned),
+        }
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        let words: usize = self.stops.iter().map(Vec::capacity).sum();
+        words * size_of::<u64>() + self.forced.capacity()
+    }
+}
+
+impl Place {
+    /// Where it is in the bits of a straight direction.
+    fn of(self, k: usize) -> usize {
+        (if k % 2 == 0 { self.id } else { self.turned }) as usize
+    }
+
+    /// The place one step on.
+    #[inline]
+    pub(super) fn step(self, (id, turned): (i32, i32)) -> Self {
+        Self {
+            id: self.id.wrapping_add_signed(id),
+            turned: self.turned.wrapping_add_signed(turned),
+        }
+    }
+}
+
+/// How far the first bit after one is. The border stops every scan.
+#[inline]
+fn ahead(bits: &[u64], at: u32) -> u32 {
+    let from = at + 1;
+    let mut words = bits[from as usize / 64..].iter();
+    let first = words
+        .next()
+        .map_or(u64::MAX, |word| word & u64::MAX << (from % 64));
+    if first != 0 {
+        return first.trailing_zeros() - from % 64 + 1;
+    }
+    let mut steps = 64 - from % 64 + 1;
+    for word in words {
+        if *word != 0 {
+            return steps + word.trailing_zeros();
+        }
+        steps += 64;
+    }
+    steps
+}
+
+/// How far the last bit before one is.
+#[inline]
+fn behind(bits: &[u64], at: u32) -> u32 {
+    let from = at - 1;
+    let mut words = bits[..=from as usize / 64].iter().rev();
+    let first = words
+        .next()
+        .map_or(u64::MAX, |word| word << (63 - from % 64));
+    if first != 0 {
+        return first.leading_zeros() + 1;
+    }
+    let mut steps = from % 64 + 2;
+    for word in words {
+        if *word != 0 {
+            return steps + word.leading_zeros();
+        }
+        steps += 64;
+    }
+    steps
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A scan stops where the rule says, wherever words begin.
+    #[test]
+    fn scans_stop_at_walls_and_where_a_turn_is_due() {
+        let grid = Grid::new(200, 150, |cell| {
+            u8::from((cell.x * 7 + cell.y * 13) % 31 > 1)
+        })
+        .unwrap();
+        for moves in Moves::ALL {
+            let mut map = JumpMap::default();
+            map.make(&grid, moves);
+            let layout = *grid.layout();
+            for cell in layout.cells().filter(|&cell| grid.is_free(cell)) {
+                let id = layout.id(cell);
+                for k in 0..4 {
+                    let mut at = id;
+                    let mut steps = 0;
+                    let stops = |at| {
+                        let around = usize::from(grid.around_id(at));
+                        !grid.is_free_id(at) || successors(moves)[k][around] & !(1 << k) != 0
+                    };
+                    while steps == 0 || !stops(at) {
+                        at = at.wrapping_add_signed(layout.offsets()[k]);
+                        steps += 1;
+                    }
+                    assert_eq!(map.scan(map.place(&layout, id), k), steps, "{cell} {k}");
+                }
+            }
+        }
+    }
+}
