@@ -1,9 +1,6 @@
 //! Ways over freed cells: whether one may be better than the old way, and the best there is.
 
-use super::{
-    basin::{Side, clamped},
-    marks::Marks,
-};
+use super::{answer::clamped, basin::Side, marks::Marks};
 use pf_core::Context;
 use pf_grid::{Apart, Distances, End, GridProblem, Layout, Moves, Search, Weights, Word};
 
