@@ -295,13 +295,33 @@ impl<W: Word> Downhill<'_, W> {
     /// root, or where there is no way on.
     #[inline]
     pub fn go(&self, from: u32, mut show: impl FnMut(u32)) -> u32 {
-        let (mut id, mut ahead) = (from, 0);
+        show(from);
+        let Some((mut id, mut k)) = self.next(from, 0) else {
+            return from;
+        };
+        let steps = &self.steps;
+        let around = |id| steps.moves.legal(steps.grid.around_id(id));
         loop {
-            show(id);
-            let Some((next, k)) = self.next(id, ahead) else {
-                return id;
-            };
-            (id, ahead) = (next, k);
+            // Ways are straight for the most part: on as long as that leads down.
+            let offset = steps.offsets[k as usize & 7];
+            let mut left = self.values[id as usize];
+            loop {
+                show(id);
+                let next = id.wrapping_add_signed(offset);
+                if u32::from(around(id)) >> k & 1 == 0 {
+                    break;
+                }
+                let rest = self.values[next as usize];
+                let weight: W = steps.weights.step(steps.grid, id, next, k);
+                if rest >= left || rest + weight != left {
+                    break;
+                }
+                (id, left) = (next, rest);
+            }
+            match self.next(id, k) {
+                Some(on) => (id, k) = on,
+                None => return id,
+            }
         }
     }
 }

@@ -149,13 +149,18 @@ impl<W: Word> Search<W> {
         }
     }
 
-    fn begin(&mut self, layout: &Layout) {
+    /// Makes ready for grids of a layout, so that the next search need not.
+    pub fn prepare(&mut self, layout: &Layout) {
         if self.layout != Some(*layout) {
             self.layout = Some(*layout);
             self.records.clear();
             self.records.resize(layout.len(), Record::default());
             self.generation = 0;
         }
+    }
+
+    fn begin(&mut self, layout: &Layout) {
+        self.prepare(layout);
         if self.generation == u16::MAX {
             self.records.fill(Record::default());
             self.generation = 0;

@@ -15,7 +15,7 @@ pub use walk::{Draw, Ended, Visited, Walk};
 use crate::{GridCost, GridProblem};
 use pf_core::{Context, Outcome, Problem, Proof, Report, Solved};
 use rand::Rng;
-use unloop::{Unloop, cells, cost};
+use unloop::{Unloop, cells, cost, walk_cost};
 use walk::{Tour, Walkers};
 
 /// What walkers walk by, and what they leave behind.
@@ -60,6 +60,8 @@ pub struct Swarm {
     walkers: Walkers,
     best: Vec<u32>,
     cost: Option<GridCost>,
+    /// The least cost of a walk of this search, loops and all.
+    walked: Option<GridCost>,
 }
 
 impl Swarm {
@@ -79,7 +81,8 @@ impl Swarm {
 
     /// Lets the walkers walk until they all take one path, the rules or the budget end it. One
     /// iteration is one walk of every walker, one evaluation one walk. The best path seen is the
-    /// answer, with its loops cut out; nothing is proved but that a blocked end has no path.
+    /// answer, with its loops cut out; nothing is proved but that a blocked end has no path. The
+    /// note `walk` says what the cheapest walk cost with its loops.
     pub fn search(
         &mut self,
         medium: &mut impl Medium,
@@ -102,6 +105,7 @@ impl Swarm {
             seed: cx.rng().next_u64(),
             iteration: 0,
         };
+        self.walked = None;
         let mut since_better = 0;
         while tour.iteration < rules.iterations && cx.proceed() {
             if tour.iteration == 0 && self.cost.is_some() {
@@ -120,6 +124,9 @@ impl Swarm {
             if self.agree() || rules.patience > 0 && since_better >= rules.patience {
                 break;
             }
+        }
+        if let Some(walked) = self.walked {
+            cx.note("walk", walked.to_string());
         }
         if self.cost.is_none() {
             return cx.report(Outcome::Unknown { attempt: None });
@@ -147,6 +154,8 @@ impl Swarm {
                 continue;
             }
             let cost = cost(grid, path);
+            let walked = walk_cost(grid, start, walk.steps());
+            self.walked = Some(self.walked.map_or(walked, |least| least.min(walked)));
             if self.cost.is_none_or(|best| cost < best) {
                 self.best.clear();
                 self.best.extend_from_slice(path);

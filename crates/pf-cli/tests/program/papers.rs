@@ -30,7 +30,7 @@ fn a_row_per_planner_and_table_with_the_papers_numbers_beside_ours() {
         rows.iter().find(of).unwrap()
     };
     for table in 1..=5 {
-        for planner in ["dijkstra", "astar", "d-star-lite", "rfd-exact"] {
+        for planner in ["dijkstra", "astar", "d-star-lite", "rfd-exact", "rfd-field"] {
             let rate = &row(planner, table)["measured"]["optimal_rate"];
             assert_eq!(rate, 1.0, "{planner} in table {table}");
         }
@@ -38,6 +38,13 @@ fn a_row_per_planner_and_table_with_the_papers_numbers_beside_ours() {
         assert!(row("rfd-exact", table)["reproduced"].is_null());
     }
     let rfd = row("rfd", 1);
+    // A walk with its loops is no shorter than what is left of it.
+    let walks = rfd["measured"]["walk_lengths"].as_array().unwrap();
+    assert!(walks.len() == 2 && walks[0].as_f64() >= rfd["measured"]["lengths"]["least"].as_f64());
+    assert_eq!(
+        row("astar", 1)["measured"]["walk_lengths"],
+        serde_json::json!([])
+    );
     assert_eq!(rfd["paper"], "redlarski");
     assert_eq!(rfd["case"], "mosaic-20");
     assert_eq!(rfd["variant"], "paper");
@@ -53,6 +60,7 @@ fn a_row_per_planner_and_table_with_the_papers_numbers_beside_ours() {
         "fig3-maze-100",
         "fig6-alley-20",
         "altitudes-maze-50",
+        "altitude-field-maze-50",
     ] {
         let png = std::fs::read(format!("{out}/{figure}.png")).unwrap();
         assert!(png.starts_with(b"\x89PNG"), "{figure}");

@@ -53,6 +53,24 @@ pub(crate) fn cost(grid: &Grid, path: &[u32]) -> GridCost {
     cost
 }
 
+/// What a walk from `start` costs, loops and all.
+pub(crate) fn walk_cost(grid: &Grid, start: u32, steps: &[u8]) -> GridCost {
+    let offsets = grid.layout().offsets();
+    let mut cost = GridCost::ZERO;
+    let mut at = start;
+    for &k in steps {
+        let next = at.wrapping_add_signed(offsets[usize::from(k)]);
+        let sum = u64::from(grid.cost_id(at)) + u64::from(grid.cost_id(next));
+        if k < 4 {
+            cost.straight += sum;
+        } else {
+            cost.diagonal += sum;
+        }
+        at = next;
+    }
+    cost
+}
+
 /// The cells of a path of ids.
 pub(crate) fn cells(layout: &Layout, path: &[u32]) -> Vec<Cell> {
     path.iter().map(|&id| layout.cell(id)).collect()

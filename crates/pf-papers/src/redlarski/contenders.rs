@@ -4,7 +4,7 @@ use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{AStar, DStarLite, Dijkstra};
 use pf_core::{FromScratch, Replanner};
 use pf_grid::GridProblem;
-use pf_rfd::{Rfd, RfdExact, RfdParams, RfdStar, RfdStarParams};
+use pf_rfd::{Rfd, RfdExact, RfdField, RfdParams, RfdStar, RfdStarParams};
 
 /// A planner that can be copied with all it has learnt, so that each change is made to the state
 /// after Table 1.
@@ -89,6 +89,7 @@ pub const CONTENDERS: &[Contender] = &[
     }),
     exact("d-star-lite", None, |_| Box::new(DStarLite::default())),
     exact("rfd-exact", None, |_| Box::new(RfdExact::default())),
+    exact("rfd-field", None, |_| Box::new(RfdField::default())),
     swarm("rfd", "paper", "RFD", true, |threads| {
         let params = RfdParams {
             threads,

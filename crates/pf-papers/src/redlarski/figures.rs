@@ -5,7 +5,7 @@ use crate::PaperError;
 use pf_core::{Context, Planner, Problem, Replanner};
 use pf_grid::{Cell, GridProblem};
 use pf_render::{Line, Picture};
-use pf_rfd::RfdExact;
+use pf_rfd::{RfdExact, RfdField};
 use std::fmt::Write;
 
 /// A picture with a file's name, as SVG.
@@ -19,8 +19,8 @@ pub struct Figure {
     pub svg: String,
 }
 
-/// All of them: Fig. 1, and for each map Fig. 3 to 6 and the altitudes of an exact river before and
-/// after a change.
+/// All of them: Fig. 1, and for each map Fig. 3 to 6 and the altitudes of an exact river and of an
+/// altitude field before and after a change.
 ///
 /// # Errors
 /// [`PaperError::Data`] if a change makes no sense.
@@ -63,7 +63,12 @@ pub fn figures(stories: &[Story]) -> Result<Vec<Figure>, PaperError> {
                 title,
             });
         }
-        figures.push(altitudes(story)?);
+        let river = RfdExact::default();
+        let of_river = |river: &RfdExact, cell| river.altitude(cell);
+        figures.push(altitudes(story, "altitudes", river, of_river)?);
+        let field = RfdField::default();
+        let of_field = |field: &RfdField, cell| field.altitude(cell).unwrap_or(f64::NAN);
+        figures.push(altitudes(story, "altitude-field", field, of_field)?);
     }
     Ok(figures)
 }
@@ -76,25 +81,31 @@ fn shortest(problem: &GridProblem) -> Vec<Cell> {
     solved.map_or_else(Vec::new, |solved| solved.solution)
 }
 
-/// What an exact river knows before and after obstacles were added.
-fn altitudes(story: &Story) -> Result<Figure, PaperError> {
+/// What a planner knows before and after obstacles were added, its upkeep done.
+fn altitudes<T: Replanner<GridProblem>>(
+    story: &Story,
+    name: &str,
+    mut planner: T,
+    altitude: impl Fn(&T, Cell) -> f64,
+) -> Result<Figure, PaperError> {
     let broken = |what: String| PaperError::Data(format!("{}: {what}", story.map));
-    let mut river = RfdExact::default();
     let mut problem = story.first.0.clone();
     let mut panels = Vec::new();
-    let mut panel = |river: &RfdExact, problem: &GridProblem, title: &str| {
-        let altitude = |cell: Cell| river.altitude(cell);
+    let mut panel = |planner: &T, problem: &GridProblem, title: &str| {
+        let altitude = |cell: Cell| altitude(planner, cell);
         panels.push(heat(problem, &shortest(problem), &altitude, title));
     };
-    let planned = river.plan(&problem, &mut Context::seeded(0));
+    let planned = planner.plan(&problem, &mut Context::seeded(0));
     planned.map_err(|error| broken(error.to_string()))?;
-    panel(&river, &problem, "after the plan");
+    planner.settle(&problem, &mut Context::seeded(0));
+    panel(&planner, &problem, "after the plan");
     let revision = problem.revise(&story.then[1].0);
     let revision = revision.map_err(|error| broken(error.to_string()))?;
-    let replanned = river.replan(&revision, &mut Context::seeded(0));
+    let replanned = planner.replan(&revision, &mut Context::seeded(0));
     replanned.map_err(|error| broken(error.to_string()))?;
+    planner.settle(revision.problem(), &mut Context::seeded(0));
     panel(
-        &river,
+        &planner,
         revision.problem(),
         "obstacles added, after the replan",
     );
@@ -113,8 +124,8 @@ fn altitudes(story: &Story) -> Result<Figure, PaperError> {
     }
     svg.push_str("</svg>\n");
     Ok(Figure {
-        name: format!("altitudes-{}", story.map),
-        title: format!("Altitudes of the exact river on {}", story.map),
+        name: format!("{name}-{}", story.map),
+        title: format!("Altitudes, {}, on {}", planner.name(), story.map),
         svg,
     })
 }

@@ -12,7 +12,7 @@ const RAMP: [[f64; 3]; 5] = [
     [255.0, 247.0, 220.0],
 ];
 
-/// A panel of 460 x 520: the free cells by colour, the blocked ones dark, a path, a scale.
+/// A panel of 460 x 520: the free cells by colour, grey without a value, the blocked ones dark, a path, a scale.
 pub(super) fn heat(
     problem: &GridProblem,
     path: &[Cell],
@@ -30,9 +30,13 @@ pub(super) fn heat(
         grid.height()
     );
     for cell in free() {
-        let colour = colour(value(cell) / most.max(f64::MIN_POSITIVE));
+        let value = value(cell);
+        let colour = if value.is_nan() {
+            "#9a9a9a".to_owned()
+        } else {
+            colour(value / most.max(f64::MIN_POSITIVE))
+        };
         let (x, y) = (cell.x, cell.y);
-
         let _ = write!(
             svg,
             r#"<rect x="{x}" y="{y}" width="1" height="1" fill="{colour}"/>"#

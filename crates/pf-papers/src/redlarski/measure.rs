@@ -95,6 +95,8 @@ pub struct Measured {
     pub length: Option<f64>,
     /// Lengths of those found.
     pub lengths: Option<Spread>,
+    /// Of each run with a walk that arrived, the least length of one with its loops; swarms alone.
+    pub walk_lengths: Vec<f64>,
     /// The mean time to the answer, in microseconds: of planning in Table 1, of replanning in the
     /// others.
     pub time_us: f64,
@@ -110,6 +112,7 @@ pub struct Measured {
 #[derive(Clone, Debug)]
 struct Run {
     cost: Option<GridCost>,
+    walk: Option<f64>,
     micros: f64,
     upkeep: f64,
 }
@@ -229,8 +232,10 @@ fn timed(
     planner.settle(problem, &mut Context::seeded(0));
     let settled = clock.now();
     let solved = report.as_ref().and_then(|report| report.outcome.solved());
+    let walk = report.as_ref().and_then(|report| report.note("walk"));
     Run {
         cost: solved.map(|solved| solved.cost),
+        walk: walk.and_then(|walk| walk.parse().ok()),
         micros: micros(answered.saturating_sub(began)),
         upkeep: micros(settled.saturating_sub(answered)),
     }
@@ -261,6 +266,7 @@ fn measured(runs: &[Run], yardstick: &[Run], shortest: GridCost) -> Measured {
         shortest: shortest.value(),
         length: lengths.map(|lengths| lengths.mean),
         lengths,
+        walk_lengths: runs.iter().filter_map(|run| run.walk).collect(),
         time_us: times.map_or(f64::NAN, |times| times.mean),
         times_us: times,
         upkeep_us: Spread::of(runs.iter().map(|run| run.upkeep)),

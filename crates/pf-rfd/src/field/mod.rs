@@ -1,5 +1,6 @@
 //! The altitude field: distances from both ends, kept whole between answers.
 
+mod answer;
 mod basin;
 mod marks;
 mod patch;

@@ -1,9 +1,6 @@
 //! Ways over freed cells: whether one may be better than the old way, and the best there is.
 
-use super::{
-    basin::{Side, clamped},
-    marks::Marks,
-};
+use super::{answer::clamped, basin::Side, marks::Marks};
 use pf_core::Context;
 use pf_grid::{Apart, Distances, End, GridProblem, Layout, Moves, Search, Weights, Word};
 
@@ -60,20 +57,26 @@ impl<W: Word> Patch<W> {
             + self.seeds.capacity() * size_of::<(u32, W)>()
     }
 
+    /// Makes ready for grids of a layout.
+    pub(super) fn prepare(&mut self, layout: &Layout) {
+        if self.places.len() != layout.len() {
+            self.freed.clear();
+            self.places.clear();
+            self.places.resize(layout.len(), 0);
+        }
+    }
+
     /// Looks around the changed cells for what may lead to less than the best. Says whether there
     /// was little enough to look at.
     pub(super) fn look(&mut self, sight: &Sight<'_, W>, changed: &[u32]) -> bool {
         let grid = sight.problem.grid();
         let layout = grid.layout();
+        self.prepare(layout);
         for (id, _) in self.freed.drain(..) {
             self.places[id as usize] = 0;
         }
         self.shores.clear();
         self.seeds.clear();
-        if self.places.len() != layout.len() {
-            self.places.clear();
-            self.places.resize(layout.len(), 0);
-        }
         if !self.gather(sight, changed) {
             return false;
         }
@@ -95,12 +98,15 @@ impl<W: Word> Patch<W> {
         // A way may pass beside the cell.
         let slack = apart.by(1, 1) + apart.by(1, 1);
         for &id in changed {
-            if !grid.is_free_id(id) || self.places[id as usize] != 0 {
+            if !grid.is_free_id(id) {
                 continue;
             }
             let at = layout.position(id);
             let over = between(apart, start, at) + between(apart, at, goal);
             if over >= sight.best && over - sight.best >= slack {
+                continue;
+            }
+            if sight.is_useless(id) || self.places[id as usize] != 0 {
                 continue;
             }
             let Ok(place) = u8::try_from(self.freed.len() + 1) else {
@@ -272,6 +278,27 @@ impl<W: Word> Patch<W> {
 }
 
 impl<W: Word> Sight<'_, W> {
+    /// Whether a cell that was freed by itself makes no cell beside it any better: what `relax` and
+    /// `find_shores` would find out, for the price of a look at its neighbours.
+    #[inline]
+    fn is_useless(&self, id: u32) -> bool {
+        let goals = &self.sides[1].field;
+        let corners = !matches!(self.problem.moves(), Moves::Always | Moves::Orthogonal);
+        if corners || self.ends.contains(&id) || goals.at(id) < W::MAX {
+            return false;
+        }
+        let (mut over, mut most) = (W::MAX, W::default());
+        for (next, weight) in self.steps(id) {
+            let left = goals.at(next);
+            if left == W::MAX {
+                return false;
+            }
+            over = over.min(left + weight);
+            most = most.max(left.max(weight) - weight);
+        }
+        over >= most
+    }
+
     /// The ids one step away, and what the step weighs.
     #[inline]
     fn steps(&self, id: u32) -> impl Iterator<Item = (u32, W)> + '_ {

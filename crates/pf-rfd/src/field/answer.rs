@@ -1,0 +1,373 @@
+//! Answers from two fields, whether they are exact or bounds.
+
+use super::{
+    basin::{Basin, Found, Side},
+    patch::Sight,
+};
+use pf_core::{Context, Problem};
+use pf_grid::{Distances, End, GridProblem, Weights, Word};
+
+/// How an answer came about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum How {
+    Kept,
+    Patched,
+    Searched,
+    Afresh,
+}
+
+impl How {
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Kept => "kept",
+            Self::Patched => "patched",
+            Self::Searched => "searched",
+            Self::Afresh => "afresh",
+        }
+    }
+}
+
+/// A field that is of use: it is rooted at one end of the way.
+#[derive(Clone, Copy, Debug)]
+struct Way<W> {
+    side: usize,
+    /// The other end.
+    from: u32,
+    root: u32,
+    /// The other end is the goal.
+    is_backward: bool,
+    /// What the field says, [`Word::MAX`] if there was no way.
+    whole: W,
+    /// How far the old way down holds.
+    holds: W,
+}
+
+impl<W: Word> Basin<W> {
+    /// The way by the field of one end, if there is one of use.
+    fn way(&self, problem: &GridProblem, is_backward: bool) -> Option<Way<W>> {
+        let (from, to) = if is_backward {
+            (problem.goal(), problem.start())
+        } else {
+            (problem.start(), problem.goal())
+        };
+        let now = Weights::of(problem.grid());
+        let rooted = |side: &Side<W>| {
+            let basis = side.field.basis();
+            basis.is_some_and(|(root, weights)| root == to && weights.hold_under(now))
+        };
+        let side = self.sides.iter().position(rooted)?;
+        let layout = problem.grid().layout();
+        let from = layout.id(from);
+        Some(Way {
+            side,
+            from,
+            root: layout.id(to),
+            is_backward,
+            whole: self.sides[side].field.at(from),
+            holds: W::default(),
+        })
+    }
+
+    /// Answers, and says how.
+    pub(super) fn answer(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> (Found, How) {
+        if !Distances::<W>::fit(problem) {
+            return (Found::TooFar, How::Afresh);
+        }
+        self.layout = Some(*problem.grid().layout());
+        let before = cx.stats().expanded;
+        let (found, how) = self.find(problem, cx);
+        self.debt += cx.stats().expanded - before;
+        if matches!(found, Found::Path | Found::Nothing) {
+            self.answered = Some((problem.start(), problem.goal()));
+            if found == Found::Nothing {
+                self.last.clear();
+            }
+        }
+        (found, how)
+    }
+
+    fn find(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> (Found, How) {
+        let mut ways = [self.way(problem, false), self.way(problem, true)];
+        // Exact fields first.
+        ways.sort_by_key(|way| way.is_none_or(|way| self.sides[way.side].since < self.log.len()));
+        let (found, intact) = self.read_off(problem, &mut ways);
+        if let Some(found) = found {
+            return (found, How::Kept);
+        }
+        if self.is_last_still_best(problem) {
+            let found = if self.last.is_empty() {
+                Found::Nothing
+            } else {
+                Found::Path
+            };
+            return (found, How::Kept);
+        }
+        if let [Some(a), Some(b)] = ways {
+            let (to_start, to_goal) = if a.is_backward { (a, b) } else { (b, a) };
+            let sides = [&self.sides[to_start.side], &self.sides[to_goal.side]];
+            let one_basis = sides[0].since == sides[1].since;
+            if one_basis && (intact.is_some() || !sides[0].closed) {
+                let found = self.over_freed(problem, [to_start, to_goal], intact, cx);
+                if let Some(answer) = found {
+                    return answer;
+                }
+            }
+        }
+        let nearer = ways.into_iter().flatten().min_by_key(|way| way.holds);
+        match intact.or(nearer) {
+            Some(way) => self.look(problem, way, intact.is_some(), cx),
+            None => self.afar(problem, cx),
+        }
+    }
+
+    /// What the fields say without a search; else an old way that still holds and may no longer be
+    /// the best, which `spare` then holds.
+    fn read_off(
+        &mut self,
+        problem: &GridProblem,
+        ways: &mut [Option<Way<W>>; 2],
+    ) -> (Option<Found>, Option<Way<W>>) {
+        for way in ways.iter_mut().flatten() {
+            let side = &self.sides[way.side];
+            let is_proof = side.since == self.log.len() || !side.opened;
+            if way.whole == W::MAX {
+                if is_proof {
+                    return (Some(Found::Nothing), None);
+                }
+                continue;
+            }
+            self.spare.clear();
+            let spare = &mut self.spare;
+            let downhill = side.field.downhill(problem);
+            let end = downhill.go(way.from, |id| spare.push(id));
+            way.holds = way.whole - side.field.at(end);
+            if end == way.root {
+                if is_proof {
+                    self.accept(way.is_backward);
+                    return (Some(Found::Path), None);
+                }
+                return (None, Some(*way));
+            }
+        }
+        (None, None)
+    }
+
+    /// The way that `spare` holds becomes the answer.
+    fn accept(&mut self, is_backward: bool) {
+        if is_backward {
+            self.spare.reverse();
+        }
+        std::mem::swap(&mut self.last, &mut self.spare);
+    }
+
+    /// Whether the last answer is the answer, as far as it still goes: nothing was opened since, and
+    /// the rest of a shortest path is one.
+    fn is_last_still_best(&mut self, problem: &GridProblem) -> bool {
+        let Some((start, goal)) = self.answered else {
+            return false;
+        };
+        if goal != problem.goal() {
+            return false;
+        }
+        if self.last.is_empty() {
+            return start == problem.start();
+        }
+        let from = problem.grid().layout().id(problem.start());
+        let Some(at) = self.last.iter().position(|&id| id == from) else {
+            return false;
+        };
+        self.last.drain(..at);
+        if problem.judge(&self.path(problem)).is_ok() {
+            return true;
+        }
+        self.answered = None;
+        false
+    }
+
+    /// What a way over freed cells costs, against the old one: see [`Patch`]. `None` if that proves
+    /// nothing.
+    fn over_freed(
+        &mut self,
+        problem: &GridProblem,
+        [to_start, to_goal]: [Way<W>; 2],
+        intact: Option<Way<W>>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Option<(Found, How)> {
+        let [starts, goals] = [&self.sides[to_start.side], &self.sides[to_goal.side]];
+        let sight = Sight {
+            problem,
+            weights: goals.field.basis()?.1,
+            sides: [starts, goals],
+            ends: [to_start.root, to_goal.root],
+            best: intact.map_or(W::MAX, |way| way.whole),
+        };
+        if !self.patch.look(&sight, &self.log[starts.since..]) {
+            return None;
+        }
+        let (search, marks) = (&mut self.search, &mut self.marks);
+        let end = self.patch.search(&sight, search, marks, cx);
+        match end {
+            End::Cut => Some((Found::Cut, How::Patched)),
+            End::TooFar => Some((Found::TooFar, How::Patched)),
+            End::Exhausted => Some(match intact {
+                Some(way) => {
+                    self.accept(way.is_backward);
+                    (Found::Path, How::Kept)
+                }
+                None => (Found::Nothing, How::Kept),
+            }),
+            End::Goal(_) => {
+                // From the start down to where the freed cells begin, over them, and on.
+                let at = self.search.reached();
+                let first = self.search.back(at).last()?.0;
+                let mut way = Vec::new();
+                let downhill = starts.field.downhill(problem);
+                if downhill.go(first, |id| way.push(id)) != to_start.root {
+                    return None;
+                }
+                way.reverse();
+                way.pop();
+                self.spare = way;
+                self.go_on(problem, to_goal, at);
+                Some((Found::Path, How::Patched))
+            }
+        }
+    }
+
+    /// The answer is what `spare` holds, the way of the last search to where it arrived, and the
+    /// old way on from there.
+    fn go_on(&mut self, problem: &GridProblem, way: Way<W>, at: u32) {
+        let known = self.spare.len();
+        self.spare.extend(self.search.back(at).map(|(id, _)| id));
+        self.spare[known..].reverse();
+        self.spare.pop();
+        let spare = &mut self.spare;
+        let downhill = self.sides[way.side].field.downhill(problem);
+        downhill.go(at, |id| spare.push(id));
+        self.accept(way.is_backward);
+    }
+
+    /// Searches from one end to where an old way on holds.
+    fn look(
+        &mut self,
+        problem: &GridProblem,
+        way: Way<W>,
+        is_intact: bool,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> (Found, How) {
+        let layout = *problem.grid().layout();
+        let side = &mut self.sides[way.side];
+        let Some((root, weights)) = side.field.basis() else {
+            return self.afar(problem, cx);
+        };
+        side.note(problem, &self.log, root, weights);
+        let side = &self.sides[way.side];
+        let octile = weights.octile::<W>(problem.grid(), problem.moves(), root);
+        let opened = side.damage.bound(weights, problem.moves());
+        let heuristic = |id: u32| {
+            let before = || (octile(id), side.field.at(id));
+            let least = if side.opened {
+                opened.at(layout.position(id), before)
+            } else {
+                side.field.at(id)
+            };
+            clamped(least)
+        };
+        let mut best = if is_intact { way.whole } else { W::LIMIT };
+        if is_intact && heuristic(way.from).is_none_or(|least| least >= best) {
+            self.accept(way.is_backward);
+            return (Found::Path, How::Kept);
+        }
+        let downhill = side.field.downhill(problem);
+        let marks = &mut self.marks;
+        marks.clear(layout.len());
+        let first = best;
+        let arrive = |id: u32, g: W| {
+            let left = side.field.at(id);
+            if left < W::MAX
+                && g + left < best
+                && (side.damage.is_below(left) || marks.is_intact(&downhill, id, way.root))
+            {
+                best = g + left;
+                return Some(left);
+            }
+            // What cannot beat the best need not be expanded.
+            heuristic(id).filter(|&least| g + least >= best)
+        };
+        let seeds = [(way.from, W::default())];
+        let end = self
+            .search
+            .run_from(problem, &seeds, first, heuristic, arrive, cx);
+        match end {
+            End::Cut => (Found::Cut, How::Searched),
+            End::TooFar => (Found::TooFar, How::Searched),
+            End::Exhausted if is_intact => {
+                self.accept(way.is_backward);
+                (Found::Path, How::Searched)
+            }
+            End::Exhausted => (Found::Nothing, How::Searched),
+            End::Goal(_) => {
+                self.spare.clear();
+                self.go_on(problem, way, self.search.reached());
+                (Found::Path, How::Searched)
+            }
+        }
+    }
+
+    /// Searches from start to goal where no field is rooted at either. By how much the distances of
+    /// two cells to a third differ, they are apart at least.
+    fn afar(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> (Found, How) {
+        let grid = problem.grid();
+        let layout = grid.layout();
+        let now = Weights::of(grid);
+        let goal = layout.id(problem.goal());
+        let octile = now.octile::<W>(grid, problem.moves(), problem.goal());
+        let holds = |side: &&Side<W>| {
+            let basis = side.field.basis();
+            side.since == self.log.len() && basis.is_some_and(|(_, then)| then.hold_under(now))
+        };
+        let fields: Vec<_> = self.sides.iter().filter(holds).map(|s| &s.field).collect();
+        let heuristic = |id: u32| {
+            let mut least = octile(id);
+            for field in &fields {
+                let (here, there) = (field.at(id), field.at(goal));
+                if (here == W::MAX) != (there == W::MAX) {
+                    return None;
+                }
+                least = least.max(here.max(there) - here.min(there));
+            }
+            Some(least)
+        };
+        let how = if fields.is_empty() {
+            How::Afresh
+        } else {
+            How::Searched
+        };
+        let arrive = |id, _| (id == goal).then(W::default);
+        let end = self
+            .search
+            .run_until(problem, problem.start(), heuristic, arrive, cx);
+        let found = match end {
+            End::Cut => Found::Cut,
+            End::TooFar => Found::TooFar,
+            End::Exhausted => Found::Nothing,
+            End::Goal(_) => {
+                self.spare.clear();
+                self.spare.extend(self.search.back(goal).map(|(id, _)| id));
+                self.accept(true);
+                Found::Path
+            }
+        };
+        (found, how)
+    }
+}
+
+/// A bound as a search takes it: nothing leads on where it is infinite, and what lies beyond the
+/// limit lies there all the same.
+pub(super) fn clamped<W: Word>(least: W) -> Option<W> {
+    (least < W::LIMIT + W::LIMIT).then(|| least.min(W::LIMIT))
+}
