@@ -9,5 +9,5 @@ mod visibility_graph;
 pub use auto::{Auto, AutoParams};
 pub use best_first::{AStar, AStarParams, Dijkstra, DijkstraParams, SearchParams};
 pub use d_star_lite::{DStarLite, DStarLiteParams};
-pub use jps::{Jps, JpsParams};
+pub use jps::{Jps, JpsParams, Prepared, PreparedParams};
 pub use visibility_graph::{VisibilityGraph, VisibilityGraphParams};

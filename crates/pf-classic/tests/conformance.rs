@@ -1,6 +1,6 @@
 //! Every law that binds them.
 
-use pf_classic::{AStar, Auto, DStarLite, Dijkstra, Jps, VisibilityGraph};
+use pf_classic::{AStar, Auto, DStarLite, Dijkstra, Jps, Prepared, VisibilityGraph};
 use pf_conformance::{grid, world};
 use pf_core::FromScratch;
 
@@ -27,6 +27,11 @@ fn jump_point_search_keeps_the_laws() {
 #[test]
 fn the_choice_keeps_the_laws() {
     grid::check_replanner(Auto::default);
+}
+
+#[test]
+fn prepared_jumps_keep_the_laws() {
+    grid::check_replanner(Prepared::default);
 }
 
 #[test]

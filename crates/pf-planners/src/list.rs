@@ -5,7 +5,7 @@ use pf_abc::{Abc, AbcParams};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{
     AStar, AStarParams, Auto, AutoParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams,
-    Jps, JpsParams, VisibilityGraph, VisibilityGraphParams,
+    Jps, JpsParams, Prepared, PreparedParams, VisibilityGraph, VisibilityGraphParams,
 };
 use pf_geom::WorldProblem;
 use pf_grid::GridProblem;
@@ -19,6 +19,7 @@ static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
     entry!(plans "astar", AStar, AStarParams, "Hart, Nilsson, Raphael 1968"),
     entry!(replans "jps", Jps, JpsParams, "Harabor, Grastien 2011, 2014"),
+    entry!(replans "prepared", Prepared, PreparedParams, "Harabor, Grastien 2014 (JPS+)"),
     entry!(replans "auto", Auto, AutoParams, "A* or JPS, by a survey of the map"),
     entry!(replans "d-star-lite", DStarLite, DStarLiteParams, "Koenig, Likhachev 2002"),
     entry!(replans "rfd", Rfd, RfdParams, "Rabanal, Rodriguez, Rubio 2007; Redlarski, Dabkowski, Palkowski"),

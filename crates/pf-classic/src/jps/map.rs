@@ -173,6 +173,11 @@ impl JumpMap {
 }
 
 impl Place {
+    /// For who needs no turned bits.
+    pub(super) fn only(id: u32) -> Self {
+        Self { id, turned: 0 }
+    }
+
     /// Where it is in the bits of a straight direction.
     fn of(self, k: usize) -> usize {
         (if k % 2 == 0 { self.id } else { self.turned }) as usize

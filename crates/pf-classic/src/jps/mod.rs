@@ -1,15 +1,21 @@
 //! Jump point search (Harabor and Grastien 2011, 2014) by scans of whole words.
 
+mod jumps;
 mod map;
+mod prepared;
 mod search;
+mod table;
 
+pub use prepared::{Prepared, PreparedParams};
+
+use jumps::Scans;
 use map::JumpMap;
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{End, Found, GridChange, GridProblem, Layout, Word};
-use search::JumpSearch;
+use pf_grid::{Found, GridChange, GridProblem};
+use search::ExactJumps;
 
 /// Jump point search has no parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -44,23 +50,9 @@ params!(JpsParams {});
 #[derive(Clone, Debug, Default)]
 pub struct Jps {
     map: JumpMap,
-    width: Width,
-    layout: Option<Layout>,
+    search: ExactJumps,
     /// The problem whose grid the map is known to be that of.
     known: Option<Stamp>,
-}
-
-#[derive(Clone, Debug)]
-enum Width {
-    Narrow(JumpSearch<u32>),
-    Wide(JumpSearch<u64>),
-    Huge(JumpSearch<u128>),
-}
-
-impl Default for Width {
-    fn default() -> Self {
-        Self::Narrow(JumpSearch::default())
-    }
 }
 
 impl Jps {
@@ -89,12 +81,7 @@ impl Jps {
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.map.bytes()
-            + match &self.width {
-                Width::Narrow(search) => search.bytes(),
-                Width::Wide(search) => search.bytes(),
-                Width::Huge(search) => search.bytes(),
-            }
+        self.map.bytes() + self.search.bytes()
     }
 }
 
@@ -112,68 +99,44 @@ impl Planner<GridProblem> for Jps {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        let grid = problem.grid();
-        if !grid.is_uniform() {
-            return Err(Unsupported::new(
-                self.name(),
-                "it needs cells that all cost the same",
-            ));
-        }
-        if !grid.is_free(problem.start()) || !grid.is_free(problem.goal()) {
-            return Ok(cx.report(Outcome::Infeasible));
+        if let Some(answer) = check("JPS", problem, cx) {
+            return answer;
         }
         self.look_at(problem);
-        if self.layout != Some(*grid.layout()) {
-            self.layout = Some(*grid.layout());
-            self.width = Width::default();
-        }
         let goal = self.map.mark(problem.goal());
-        let found = loop {
-            let found = match &mut self.width {
-                Width::Narrow(search) => find(search, problem, &self.map, cx),
-                Width::Wide(search) => find(search, problem, &self.map, cx),
-                Width::Huge(search) => find(search, problem, &self.map, cx),
-            };
-            match found {
-                Some(found) => break found,
-                None => self.width.widen(),
-            }
-        };
+        let found = self
+            .search
+            .find(problem, &Scans::of(problem, &self.map), cx);
         self.map.restore(goal);
-        Ok(match found {
-            Found::Path(path) => cx.answer(problem, path, Proof::Optimal),
-            Found::Nothing => cx.report(Outcome::Infeasible),
-            Found::Cut => cx.report(Outcome::Unknown { attempt: None }),
-        })
+        Ok(report(problem, found, cx))
     }
 }
 
-/// `None` if the word is too narrow.
-fn find<W: Word>(
-    search: &mut JumpSearch<W>,
+fn report(
     problem: &GridProblem,
-    map: &JumpMap,
+    found: Found,
     cx: &mut Context<'_, GridProblem>,
-) -> Option<Found> {
-    match search.run(problem, map, cx) {
-        End::Goal(_) => Some(Found::Path(search.path(problem))),
-        End::Exhausted => Some(Found::Nothing),
-        End::Cut => Some(Found::Cut),
-        End::TooFar => None,
+) -> Report<GridProblem> {
+    match found {
+        Found::Path(path) => cx.answer(problem, path, Proof::Optimal),
+        Found::Nothing => cx.report(Outcome::Infeasible),
+        Found::Cut => cx.report(Outcome::Unknown { attempt: None }),
     }
 }
 
-impl Width {
-    fn widen(&mut self) {
-        let narrow = matches!(self, Self::Narrow(_));
-        // The old memory goes before the new comes.
-        *self = Self::default();
-        *self = if narrow {
-            Self::Wide(JumpSearch::default())
-        } else {
-            Self::Huge(JumpSearch::default())
-        };
+/// Whether jump points are of use, and a path is possible at all; what to answer otherwise.
+fn check(
+    name: &'static str,
+    problem: &GridProblem,
+    cx: &mut Context<'_, GridProblem>,
+) -> Option<Result<Report<GridProblem>, Unsupported>> {
+    let grid = problem.grid();
+    if !grid.is_uniform() {
+        let reason = "it needs cells that all cost the same";
+        return Some(Err(Unsupported::new(name, reason)));
     }
+    let hopeless = !grid.is_free(problem.start()) || !grid.is_free(problem.goal());
+    hopeless.then(|| Ok(cx.report(Outcome::Infeasible)))
 }
 
 impl Replanner<GridProblem> for Jps {

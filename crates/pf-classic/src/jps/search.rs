@@ -1,8 +1,8 @@
 //! A best-first search over jump points, in one word width.
 
-use super::map::{JumpMap, Place};
+use super::jumps::{Jumps, fans};
 use pf_core::Context;
-use pf_grid::{Buckets, Cell, End, GridProblem, Layout, Moves, Weights, Word, successors};
+use pf_grid::{Buckets, Cell, End, Found, GridProblem, Layout, Moves, Weights, Word, successors};
 
 /// What is known of a jump point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -20,21 +20,10 @@ struct Record<W> {
     closed: bool,
 }
 
-/// The rules of a search, and where it goes.
-struct Hunt<'p> {
-    problem: &'p GridProblem,
-    layout: Layout,
-    goal: u32,
-    steps: [(i32, i32); 8],
-    /// The directions in which cells are looked at one by one, with scans to both sides: diagonals,
-    /// or up and down where there are none.
-    fans: u8,
-}
-
 /// A* whose nodes are jump points.
 ///
-/// A straight run is scanned by words; a diagonal one is walked cell by cell, with scans to both
-/// sides, and only what those find becomes a node.
+/// A straight run ends at the first cell from which the search may go on elsewhere; a diagonal one
+/// sends runs to both sides, and only where those end, nodes come about.
 #[derive(Clone, Debug, Default)]
 pub(super) struct JumpSearch<W: Copy> {
     records: Vec<Record<W>>,
@@ -58,7 +47,7 @@ impl<W: Word> JumpSearch<W> {
     pub(super) fn run(
         &mut self,
         problem: &GridProblem,
-        map: &JumpMap,
+        jumps: &impl Jumps,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let grid = problem.grid();
@@ -68,20 +57,8 @@ impl<W: Word> JumpSearch<W> {
         }
         let layout = *grid.layout();
         self.begin(&layout);
-        let moves = problem.moves();
-        let hunt = Hunt {
-            problem,
-            layout,
-            goal: layout.id(problem.goal()),
-            steps: map.steps(&layout),
-            fans: if moves == Moves::Orthogonal {
-                0b1010
-            } else {
-                0xf0
-            },
-        };
         let start = layout.id(problem.start());
-        let octile = weights.octile::<W>(grid, moves, problem.goal());
+        let octile = weights.octile::<W>(grid, problem.moves(), problem.goal());
         let first = octile(start);
         // A jump raises the key by twice its weight at most.
         let reach = W::DIAGONAL.times(2 * (layout.width() + layout.height()));
@@ -95,7 +72,7 @@ impl<W: Word> JumpSearch<W> {
             ..Record::default()
         };
         self.open.push(first, start, W::default());
-        self.search(&hunt, map, octile, cx)
+        self.search(problem, jumps, octile, cx)
     }
 
     fn begin(&mut self, layout: &Layout) {
@@ -114,14 +91,14 @@ impl<W: Word> JumpSearch<W> {
 
     fn search(
         &mut self,
-        hunt: &Hunt<'_>,
-        map: &JumpMap,
+        problem: &GridProblem,
+        jumps: &impl Jumps,
         octile: impl Fn(u32) -> W,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
-        let grid = hunt.problem.grid();
-        let moves = hunt.problem.moves();
-        let onward = successors(moves);
+        let (grid, moves) = (problem.grid(), problem.moves());
+        let goal = grid.layout().id(problem.goal());
+        let (onward, all_fans) = (successors(moves), fans(moves));
         let mut bound = W::LIMIT;
         self.beyond = false;
         while let Some((id, g)) = self.open.pop(bound) {
@@ -134,8 +111,8 @@ impl<W: Word> JumpSearch<W> {
             }
             record.closed = true;
             let mut arrivals = record.arrivals;
-            cx.expanded(|| hunt.layout.cell(id));
-            if id == hunt.goal {
+            cx.expanded(|| grid.layout().cell(id));
+            if id == goal {
                 bound = bound.min(g);
                 continue;
             }
@@ -149,38 +126,38 @@ impl<W: Word> JumpSearch<W> {
                 ways |= onward[arrivals.trailing_zeros() as usize][usize::from(around)];
                 arrivals &= arrivals - 1;
             }
-            let place = map.place(&hunt.layout, id);
+            let place = jumps.place(id);
             let enough = g + octile(id) + W::STRAIGHT.times(SLACK);
-            let mut lines = ways & !hunt.fans;
+            let mut lines = ways & !all_fans;
             while lines != 0 {
                 let k = lines.trailing_zeros() as usize;
                 lines &= lines - 1;
-                if let Some((at, steps)) = hunt.run(map, place, k) {
+                if let Some((at, steps)) = jumps.run(place, k) {
                     self.reach(at, g + W::STRAIGHT.times(steps), k, id, bound, &octile);
                 }
             }
-            let mut fans = ways & hunt.fans;
+            let mut fans = ways & all_fans;
             while fans != 0 {
                 let k = fans.trailing_zeros() as usize;
                 fans &= fans - 1;
                 let weight = if k < 4 { W::STRAIGHT } else { W::DIAGONAL };
                 let open = onward[k][0xff];
                 let (mut from, mut from_g) = (place, g);
-                loop {
-                    from = from.step(hunt.steps[k]);
-                    from_g = from_g + weight;
+                while let Some((next, steps)) = jumps.stride(from, k) {
+                    from = next;
+                    from_g = from_g + weight.times(steps);
                     let ways = onward[k][usize::from(grid.around_id(from.id))];
                     // Most of what lies that way may never be asked for: it waits as a node.
                     let leads_away = from_g + octile(from.id) > enough;
-                    if from.id == hunt.goal || leads_away || ways & !open != 0 {
+                    if from.id == goal || leads_away || ways & !open != 0 {
                         self.reach(from.id, from_g, k, id, bound, &octile);
                         break;
                     }
-                    let mut lines = ways & !hunt.fans;
+                    let mut lines = ways & !all_fans;
                     while lines != 0 {
                         let k = lines.trailing_zeros() as usize;
                         lines &= lines - 1;
-                        if let Some((at, steps)) = hunt.run(map, from, k) {
+                        if let Some((at, steps)) = jumps.run(from, k) {
                             let at_g = from_g + W::STRAIGHT.times(steps);
                             self.reach(at, at_g, k, id, bound, &octile);
                         }
@@ -268,17 +245,6 @@ impl<W: Word> JumpSearch<W> {
     }
 }
 
-impl Hunt<'_> {
-    /// The free cell at which a straight run stops, and how far it is.
-    #[inline]
-    fn run(&self, map: &JumpMap, from: Place, k: usize) -> Option<(u32, u32)> {
-        let steps = map.scan(from, k);
-        let offset = self.steps[k].0.wrapping_mul(steps.cast_signed());
-        let at = from.id.wrapping_add_signed(offset);
-        self.problem.grid().is_free_id(at).then_some((at, steps))
-    }
-}
-
 /// Appends the cells from just before `to` back to `from`: a jump goes diagonally first, or up and
 /// down first where there are no diagonals.
 fn back(moves: Moves, from: Cell, to: Cell, path: &mut Vec<Cell>) {
@@ -295,5 +261,90 @@ fn back(moves: Moves, from: Cell, to: Cell, path: &mut Vec<Cell>) {
             y: if up { toward(at.y, from.y) } else { at.y },
         };
         path.push(at);
+    }
+}
+
+/// A [`JumpSearch`] in the narrowest word that orders its paths exactly, as of
+/// [`ExactSearch`](pf_grid::ExactSearch).
+#[derive(Clone, Debug, Default)]
+pub(super) struct ExactJumps {
+    width: Width,
+    layout: Option<Layout>,
+}
+
+#[derive(Clone, Debug)]
+enum Width {
+    Narrow(JumpSearch<u32>),
+    Wide(JumpSearch<u64>),
+    Huge(JumpSearch<u128>),
+}
+
+impl Default for Width {
+    fn default() -> Self {
+        Self::Narrow(JumpSearch::default())
+    }
+}
+
+impl ExactJumps {
+    /// Finds a shortest path between two free cells.
+    pub(super) fn find(
+        &mut self,
+        problem: &GridProblem,
+        jumps: &impl Jumps,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Found {
+        let layout = *problem.grid().layout();
+        if self.layout != Some(layout) {
+            self.layout = Some(layout);
+            self.width = Width::default();
+        }
+        loop {
+            let found = match &mut self.width {
+                Width::Narrow(search) => find(search, problem, jumps, cx),
+                Width::Wide(search) => find(search, problem, jumps, cx),
+                Width::Huge(search) => find(search, problem, jumps, cx),
+            };
+            match found {
+                Some(found) => return found,
+                None => self.width.widen(),
+            }
+        }
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        match &self.width {
+            Width::Narrow(search) => search.bytes(),
+            Width::Wide(search) => search.bytes(),
+            Width::Huge(search) => search.bytes(),
+        }
+    }
+}
+
+/// `None` if the word is too narrow.
+fn find<W: Word>(
+    search: &mut JumpSearch<W>,
+    problem: &GridProblem,
+    jumps: &impl Jumps,
+    cx: &mut Context<'_, GridProblem>,
+) -> Option<Found> {
+    match search.run(problem, jumps, cx) {
+        End::Goal(_) => Some(Found::Path(search.path(problem))),
+        End::Exhausted => Some(Found::Nothing),
+        End::Cut => Some(Found::Cut),
+        End::TooFar => None,
+    }
+}
+
+impl Width {
+    fn widen(&mut self) {
+        let narrow = matches!(self, Self::Narrow(_));
+        // The old memory goes before the new comes.
+        *self = Self::default();
+        *self = if narrow {
+            Self::Wide(JumpSearch::default())
+        } else {
+            Self::Huge(JumpSearch::default())
+        };
     }
 }
