@@ -101,31 +101,41 @@ impl Auto {
         self.astar.bytes() + self.jps.bytes()
     }
 
-    /// Whether to jump.
-    fn choose(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
+    /// What a problem's grid looks like; `None` if it has terrain.
+    fn survey(&mut self, problem: &GridProblem) -> Option<Survey> {
         let grid = problem.grid();
         if !grid.is_uniform() {
+            return None;
+        }
+        if self.surveyed != Some(grid.stamp()) {
+            self.survey = Some(Survey::of(grid, &mut self.jps, problem));
+            (self.surveyed, self.changed) = (Some(grid.stamp()), 0);
+        }
+        self.survey
+    }
+
+    /// Whether jump points serve a problem's grid well.
+    pub(crate) fn jumps(&mut self, problem: &GridProblem) -> bool {
+        self.survey(problem)
+            .is_some_and(|survey| !survey.is_strewn())
+    }
+
+    /// Whether to jump, and says why.
+    fn choose(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
+        let Some(survey) = self.survey(problem) else {
             cx.note("search", "astar: terrain");
             return false;
-        }
-        let survey = match self.survey {
-            Some(survey) if self.surveyed == Some(grid.stamp()) => survey,
-            _ => Survey::of(grid, &mut self.jps, problem),
         };
-        if self.surveyed != Some(grid.stamp()) {
-            (self.survey, self.surveyed, self.changed) = (Some(survey), Some(grid.stamp()), 0);
-        }
         #[expect(clippy::cast_precision_loss, reason = "a number to be read")]
         let turns = survey.turns as f64 / survey.free.max(1) as f64;
-        if survey.is_strewn() {
-            cx.note(
-                "search",
-                format!("astar: strewn obstacles, {turns:.2} turns a cell"),
-            );
-            return false;
-        }
-        cx.note("search", format!("jps: {turns:.2} turns a cell"));
-        true
+        let strewn = survey.is_strewn();
+        let why = if strewn {
+            format!("astar: strewn obstacles, {turns:.2} turns a cell")
+        } else {
+            format!("jps: {turns:.2} turns a cell")
+        };
+        cx.note("search", why);
+        !strewn
     }
 }
 

@@ -31,7 +31,7 @@ pub(super) struct Place {
 }
 
 /// A cell at which every scan stops, and the straight directions in which it did before.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 #[must_use]
 pub(super) struct Marked(Option<(Place, u8)>);
 
@@ -50,7 +50,11 @@ impl JumpMap {
         self.pitch = layout.height() + 1;
         let turned = (layout.width() as usize + 2) * self.pitch as usize + 1;
         for (k, stops) in self.stops.iter_mut().enumerate() {
-            let ids = if k % 2 == 0 { layout.len() } else { turned };
+            let ids = if k.is_multiple_of(2) {
+                layout.len()
+            } else {
+                turned
+            };
             stops.clear();
             stops.resize(ids / 64 + 1, u64::MAX);
         }
@@ -180,7 +184,11 @@ impl Place {
 
     /// Where it is in the bits of a straight direction.
     fn of(self, k: usize) -> usize {
-        (if k % 2 == 0 { self.id } else { self.turned }) as usize
+        (if k.is_multiple_of(2) {
+            self.id
+        } else {
+            self.turned
+        }) as usize
     }
 
     /// The place one step on.
@@ -254,16 +262,16 @@ mod tests {
                 let id = layout.id(cell);
                 for k in 0..4 {
                     let mut at = id;
-                    let mut steps = 0;
+                    let mut walked = 0;
                     let stops = |at| {
                         let around = usize::from(grid.around_id(at));
                         !grid.is_free_id(at) || successors(moves)[k][around] & !(1 << k) != 0
                     };
-                    while steps == 0 || !stops(at) {
+                    while walked == 0 || !stops(at) {
                         at = at.wrapping_add_signed(layout.offsets()[k]);
-                        steps += 1;
+                        walked += 1;
                     }
-                    assert_eq!(map.scan(map.place(&layout, id), k), steps, "{cell} {k}");
+                    assert_eq!(map.scan(map.place(&layout, id), k), walked, "{cell} {k}");
                 }
             }
         }

@@ -99,8 +99,13 @@ impl Planner<GridProblem> for Jps {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        if let Some(answer) = check("JPS", problem, cx) {
-            return answer;
+        let grid = problem.grid();
+        if !grid.is_uniform() {
+            let reason = "it needs cells that all cost the same";
+            return Err(Unsupported::new(self.name(), reason));
+        }
+        if !grid.is_free(problem.start()) || !grid.is_free(problem.goal()) {
+            return Ok(cx.report(Outcome::Infeasible));
         }
         self.look_at(problem);
         let goal = self.map.mark(problem.goal());
@@ -122,21 +127,6 @@ fn report(
         Found::Nothing => cx.report(Outcome::Infeasible),
         Found::Cut => cx.report(Outcome::Unknown { attempt: None }),
     }
-}
-
-/// Whether jump points are of use, and a path is possible at all; what to answer otherwise.
-fn check(
-    name: &'static str,
-    problem: &GridProblem,
-    cx: &mut Context<'_, GridProblem>,
-) -> Option<Result<Report<GridProblem>, Unsupported>> {
-    let grid = problem.grid();
-    if !grid.is_uniform() {
-        let reason = "it needs cells that all cost the same";
-        return Some(Err(Unsupported::new(name, reason)));
-    }
-    let hopeless = !grid.is_free(problem.start()) || !grid.is_free(problem.goal());
-    hopeless.then(|| Ok(cx.report(Outcome::Infeasible)))
 }
 
 impl Replanner<GridProblem> for Jps {

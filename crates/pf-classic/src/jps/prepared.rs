@@ -1,12 +1,14 @@
 //! Jump point search with the lengths of all jumps made beforehand.
 
 use super::{
-    Jps, check, report,
+    report,
     search::ExactJumps,
     table::{JumpTable, Lookups},
 };
+use crate::Auto;
 use pf_core::{
-    Claims, Context, InvalidParams, Planner, Replanner, Report, Revision, Unsupported, params,
+    Claims, Context, InvalidParams, Outcome, Planner, Replanner, Report, Revision, Unsupported,
+    params,
 };
 use pf_grid::GridProblem;
 
@@ -20,10 +22,9 @@ params!(PreparedParams {});
 /// up.
 ///
 /// The first query on a grid makes the table: 16 bytes a cell, in some tens of nanoseconds a cell. A
-/// change of the map makes it worthless; then [`Jps`] answers, until `settle` makes a new one. One
-/// iteration is one jump point expanded.
-///
-/// Any move rule; no terrain ([`Unsupported`]).
+/// change of the map makes it worthless; then [`Auto`] answers, until `settle` makes a new one. It also
+/// answers where a table is of no use: on terrain, among strewn obstacles, and on maps of over 32,767
+/// cells in a row; the note `search` says so. One iteration is one jump point expanded.
 ///
 /// Source: Harabor and Grastien, *Improving Jump Point Search*, 2014 (JPS+).
 ///
@@ -46,7 +47,7 @@ params!(PreparedParams {});
 pub struct Prepared {
     table: JumpTable,
     search: ExactJumps,
-    jps: Jps,
+    auto: Auto,
 }
 
 impl Prepared {
@@ -59,11 +60,14 @@ impl Prepared {
     }
 
     /// Makes the table for a problem's grid, unless it has it: what the first query does otherwise.
-    /// Says whether the grid can have one: not with terrain, or over 32,767 cells in a row.
+    /// Says whether a table is of use there.
     pub fn prepare(&mut self, problem: &GridProblem) -> bool {
         let (grid, moves) = (problem.grid(), problem.moves());
-        let can = grid.is_uniform() && JumpTable::fits(grid);
-        if can && !self.table.is_of(grid, moves) {
+        if self.table.is_of(grid, moves) {
+            return true;
+        }
+        let can = JumpTable::fits(grid) && self.auto.jumps(problem);
+        if can {
             self.table.make(grid, moves);
         }
         can
@@ -72,7 +76,7 @@ impl Prepared {
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.table.bytes() + self.search.bytes() + self.jps.bytes()
+        self.table.bytes() + self.search.bytes() + self.auto.bytes()
     }
 }
 
@@ -90,11 +94,12 @@ impl Planner<GridProblem> for Prepared {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        if let Some(answer) = check("JPS+", problem, cx) {
-            return answer;
-        }
         if !self.prepare(problem) {
-            return self.jps.plan(problem, cx);
+            return self.auto.plan(problem, cx);
+        }
+        let grid = problem.grid();
+        if !grid.is_free(problem.start()) || !grid.is_free(problem.goal()) {
+            return Ok(cx.report(Outcome::Infeasible));
         }
         let jumps = Lookups::of(problem, &self.table);
         let found = self.search.find(problem, &jumps, cx);
@@ -103,7 +108,7 @@ impl Planner<GridProblem> for Prepared {
 }
 
 impl Replanner<GridProblem> for Prepared {
-    /// By the table, if it still holds; else as [`Jps`] does.
+    /// By the table, if it still holds; else as [`Auto`] does.
     fn replan(
         &mut self,
         revision: &Revision<'_, GridProblem>,
@@ -113,10 +118,7 @@ impl Replanner<GridProblem> for Prepared {
         if self.table.is_of(problem.grid(), problem.moves()) {
             return self.plan(problem, cx);
         }
-        if let Some(answer) = check("JPS+", problem, cx) {
-            return answer;
-        }
-        self.jps.replan(revision, cx)
+        self.auto.replan(revision, cx)
     }
 
     /// Makes the table anew if the map changed: in the time of a hundred searches or so.
