@@ -89,15 +89,17 @@ impl Case {
         })
     }
 
-    /// The same with every cell cut into `times` x `times`, and the queries between their middles.
-    pub(crate) fn upscaled(self, times: u32) -> Result<Self> {
+    /// The same with every cell cut into `times` x `times`, and the queries between their middles;
+    /// stated optima stay those of the whole map.
+    pub(crate) fn upscaled(&self, times: u32) -> Result<Self> {
+        let (name, whole) = (self.name.clone(), &self.grid);
+        let mut scen = self.scen.clone();
         if times <= 1 {
-            return Ok(self);
+            let grid = Arc::clone(whole);
+            return Ok(Self { name, grid, scen });
         }
-        let whole = &self.grid;
         let [width, height] =
             [whole.width(), whole.height()].map(|side| side.saturating_mul(times));
-        Grid::check_size(width.into(), height.into())?;
         let fine = Grid::new(width, height, |cell| {
             let cell = Cell::new(cell.x / times, cell.y / times);
             if whole.is_free(cell) {
@@ -107,12 +109,11 @@ impl Case {
             }
         })?;
         let middle = |cell: Cell| Cell::new(cell.x * times + times / 2, cell.y * times + times / 2);
-        let mut scen = self.scen;
         for row in &mut scen.rows {
             (row.start, row.goal) = (middle(row.start), middle(row.goal));
         }
         Ok(Self {
-            name: format!("{} x{times}", self.name),
+            name: format!("{name} x{times}"),
             grid: Arc::new(fine),
             scen,
         })
@@ -186,6 +187,28 @@ fn evenly<T: Copy>(all: &[T], limit: usize) -> Vec<T> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn queries_are_made_up_the_same_again_and_cut_with_their_map() {
+        let grid = Arc::new(Grid::parse("..@.. ..@.. .....").unwrap());
+        let scen = made_up(&grid).unwrap();
+        assert_eq!(scen, made_up(&grid).unwrap());
+        assert!(
+            scen.rows
+                .iter()
+                .all(|row| grid.is_free(row.start) && grid.is_free(row.goal))
+        );
+        let name = "small".to_owned();
+        let cut = Case { name, grid, scen }.upscaled(3).unwrap();
+        assert_eq!((cut.grid.width(), cut.grid.height()), (15, 9));
+        assert!(!cut.grid.is_free(Cell::new(8, 5)) && cut.grid.is_free(Cell::new(8, 6)));
+        assert!(
+            cut.scen
+                .rows
+                .iter()
+                .all(|row| row.start.x % 3 == 1 && row.goal.y % 3 == 1)
+        );
+    }
 
     #[test]
     fn samples_are_spread_evenly() {

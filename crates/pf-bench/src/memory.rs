@@ -3,7 +3,7 @@
 use crate::protocol::{json, say, timed};
 use anyhow::Result;
 use pf_classic::{AStar, DStarLite, Dijkstra};
-use pf_core::{Context, Planner};
+use pf_core::{Context, Planner, Replanner};
 use pf_grid::{Cell, Grid, GridProblem};
 use pf_rfd::RfdField;
 use serde::Serialize;
@@ -47,34 +47,24 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         };
         let problem = GridProblem::new(grid, Cell::new(0, 0), goal)?;
         let mut astar = AStar::default();
-        measure(args, case, "astar", &problem, &mut astar, AStar::bytes)?;
+        measure(args, case, "astar", &problem, &mut astar, |it, _| {
+            it.bytes()
+        })?;
         let mut dijkstra = Dijkstra::default();
-        measure(
-            args,
-            case,
-            "dijkstra",
-            &problem,
-            &mut dijkstra,
-            Dijkstra::bytes,
-        )?;
+        measure(args, case, "dijkstra", &problem, &mut dijkstra, |it, _| {
+            it.bytes()
+        })?;
         let mut dstar = DStarLite::default();
-        measure(
-            args,
-            case,
-            "d-star-lite",
-            &problem,
-            &mut dstar,
-            DStarLite::bytes,
-        )?;
+        measure(args, case, "d-star-lite", &problem, &mut dstar, |it, _| {
+            it.bytes()
+        })?;
         let mut field = RfdField::default();
-        measure(
-            args,
-            case,
-            "rfd-field",
-            &problem,
-            &mut field,
-            RfdField::bytes,
-        )?;
+        // It has the most once its upkeep is done.
+        let settled = |it: &mut RfdField, problem: &_| {
+            it.settle(problem, &mut Context::seeded(0));
+            it.bytes()
+        };
+        measure(args, case, "rfd-field", &problem, &mut field, settled)?;
     }
     Ok(())
 }
@@ -85,7 +75,7 @@ fn measure<T: Planner<GridProblem>>(
     planner: &'static str,
     problem: &GridProblem,
     it: &mut T,
-    bytes: fn(&T) -> usize,
+    bytes: impl FnOnce(&mut T, &GridProblem) -> usize,
 ) -> Result<()> {
     let (time, report) = timed(|| it.plan(problem, &mut Context::seeded(0)));
     let cells = f64::from(args.side).powi(2);
@@ -94,7 +84,7 @@ fn measure<T: Planner<GridProblem>>(
         case,
         planner,
         #[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
-        bytes_per_cell: bytes(it) as f64 / cells,
+        bytes_per_cell: bytes(it, problem) as f64 / cells,
         length: report?.outcome.solved().map(|best| best.cost.value()),
         mean_us: time.as_secs_f64() * 1e6,
     };

@@ -4,9 +4,6 @@
 use super::Args;
 use crate::{cases::Case, protocol::Row};
 use anyhow::Result;
-use pf_grid::{Cell, Grid};
-use pf_io::ScenRow;
-use std::sync::Arc;
 
 /// The side of the maps that are cut finer.
 const SIDE: u32 = 512;
@@ -20,35 +17,19 @@ pub(super) fn bench(args: &Args, case: &Case) -> Result<Option<Vec<Row>>> {
     if times <= 1 || (grid.width(), grid.height()) != (SIDE, SIDE) {
         return Ok(None);
     }
-    let fine = Grid::new(SIDE * times, SIDE * times, |cell| {
-        let cell = coarse(cell, times);
-        if grid.is_free(cell) {
-            grid.cost(cell)
-        } else {
-            0
-        }
-    })?;
-    let queries = case.spread(args.limit.min(QUERIES));
-    let scaled: Vec<ScenRow> = queries
-        .iter()
-        .map(|row| ScenRow {
-            start: middle(row.start, times),
-            goal: middle(row.goal, times),
-            ..(*row).clone()
-        })
-        .collect();
-    let name = format!("{} x{times}", case.name);
+    let fine = case.upscaled(times)?;
+    let limit = args.limit.min(QUERIES);
+    let (queries, scaled) = (case.spread(limit), fine.spread(limit));
     let originals = super::bench(
-        &name,
+        &fine.name,
         grid,
         Some(&case.scen),
         &queries,
         args.asked.group_of_ours()?,
     )?;
-    let scaled: Vec<&ScenRow> = scaled.iter().collect();
     let mut rows = super::bench(
-        &name,
-        &Arc::new(fine),
+        &fine.name,
+        &fine.grid,
         None,
         &scaled,
         args.asked.group_of_ours()?,
@@ -59,12 +40,4 @@ pub(super) fn bench(args: &Args, case: &Case) -> Result<Option<Vec<Row>>> {
         row.mismatches += original.mismatches;
     }
     Ok(Some(rows))
-}
-
-fn coarse(cell: Cell, times: u32) -> Cell {
-    Cell::new(cell.x / times, cell.y / times)
-}
-
-fn middle(cell: Cell, times: u32) -> Cell {
-    Cell::new(cell.x * times + times / 2, cell.y * times + times / 2)
 }

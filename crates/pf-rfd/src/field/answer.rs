@@ -42,6 +42,10 @@ struct Way<W> {
     holds: W,
 }
 
+/// A change of more cells than this, and than one in so many, is large.
+const FEW: usize = 100;
+const LARGE: usize = 64;
+
 impl<W: Word> Basin<W> {
     /// The way by the field of one end, if there is one of use.
     fn way(&self, problem: &GridProblem, is_backward: bool) -> Option<Way<W>> {
@@ -106,6 +110,9 @@ impl<W: Word> Basin<W> {
             };
             return (found, How::Kept);
         }
+        if self.is_large(&ways) {
+            return self.afar(problem, cx);
+        }
         if let [Some(a), Some(b)] = ways {
             let (to_start, to_goal) = if a.is_backward { (a, b) } else { (b, a) };
             let sides = [&self.sides[to_start.side], &self.sides[to_goal.side]];
@@ -122,6 +129,15 @@ impl<W: Word> Basin<W> {
             Some(way) => self.look(problem, way, intact.is_some(), cx),
             None => self.afar(problem, cx),
         }
+    }
+
+    /// Whether so much was opened that to look at it takes longer than to search without.
+    fn is_large(&self, ways: &[Option<Way<W>>; 2]) -> bool {
+        let cells = self.layout.map_or(0, |layout| layout.len());
+        ways.iter().flatten().all(|way| {
+            let side = &self.sides[way.side];
+            side.opened && self.log.len() - side.since > FEW.max(cells / LARGE)
+        })
     }
 
     /// What the fields say without a search; else an old way that still holds and may no longer be

@@ -132,13 +132,18 @@ impl<W: Word> Patch<W> {
         }
     }
 
-    /// The tiny search: until nothing changes.
+    /// The tiny search: forwards and backwards in turn, until nothing changes.
     fn relax(&mut self, sight: &Sight<'_, W>) {
         let goals = &sight.sides[1].field;
-        let mut again = true;
-        while again {
-            again = false;
+        let (mut again, mut backwards) = (true, false);
+        while std::mem::take(&mut again) {
+            backwards = !backwards;
             for k in 0..self.freed.len() {
+                let k = if backwards {
+                    self.freed.len() - 1 - k
+                } else {
+                    k
+                };
                 let (id, mut least) = self.freed[k];
                 for (next, weight) in sight.steps(id) {
                     let rest = self.left(goals, next);
