@@ -217,9 +217,9 @@ fn golden_traces_of_bees() {
         let mut planner = Abc::new(params).expect("sound parameters");
         let mut cx = Context::seeded(7).traced(&mut listen);
         let report = planner.plan(&problem, &mut cx).expect("supported");
-        let (word, n) = (report.outcome.word(), report.stats.iterations);
+        let (outcome, n) = (report.outcome.word(), report.stats.iterations);
         lines.push(format!(
-            "{word} in {n} iterations, {} evaluated",
+            "{outcome} in {n} iterations, {} evaluated",
             report.stats.evaluated
         ));
         golden::check(name, &(lines.join("\n") + "\n"));

@@ -264,11 +264,11 @@ fn a_robot_larger_than_its_window_gives_up() {
 #[test]
 fn a_walk_goes_on_when_the_world_changes() {
     let bounds = block((0.0, 0.0), (30.0, 20.0));
-    let wall = [
+    let pieces = [
         block((14.0, 0.0), (15.0, 8.0)),
         block((14.0, 11.0), (15.0, 20.0)),
     ];
-    let world = World::with_shapes(bounds, wall.map(Into::into));
+    let world = World::with_shapes(bounds, pieces.map(Into::into));
     for seed in 0..20 {
         let ends = [Point::new(3.0, 10.0), Point::new(27.0, 10.0)];
         let mut problem = WorldProblem::new(world.clone(), 0.0, ends[0], ends[1]).unwrap();

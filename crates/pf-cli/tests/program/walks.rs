@@ -5,7 +5,7 @@ use serde_json::Value;
 
 fn walked(args: &[&str], code: i32) -> Value {
     let run = pf(&[&["walk"], args, &["--json"]].concat()).ends(code);
-    serde_json::from_str(&run.out).unwrap()
+    serde_json::from_str(&run.out).expect("one object")
 }
 
 #[test]

@@ -38,7 +38,7 @@ pub fn walk(problem: &WorldProblem, params: &AbcParams, seed: u64) -> Result<Tri
     let clock = Clock::default();
     let began = clock.now();
     let mut cx = Context::seeded(seed);
-    let mut seen = Observation::default();
+    let mut view = Observation::default();
     let mut trip = Trip {
         trail: vec![problem.start()],
         arrived: false,
@@ -51,8 +51,8 @@ pub fn walk(problem: &WorldProblem, params: &AbcParams, seed: u64) -> Result<Tri
         if trip.arrived {
             break;
         }
-        problem.observe(&at, &sensor, &mut seen);
-        match colony.step(&seen, &mut cx) {
+        problem.observe(&at, &sensor, &mut view);
+        match colony.step(&view, &mut cx) {
             Step::To(next) => trip.trail.push(next),
             Step::Stay => {}
             Step::GiveUp => break,
