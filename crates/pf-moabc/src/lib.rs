@@ -1,0 +1,22 @@
+//! x
+
+mod archive;
+mod baseline;
+mod bees;
+mod dice;
+mod encoding;
+mod evolution;
+mod genetic;
+mod hive;
+pub mod indicators;
+mod moead;
+mod nsga2;
+mod params;
+mod random;
+mod sort;
+
+pub use bees::Moabc;
+pub use moead::Moead;
+pub use nsga2::Nsga2;
+pub use params::{MoabcParams, MoeadParams, Nsga2Params, RandomSearchParams, Rules};
+pub use random::RandomSearch;
