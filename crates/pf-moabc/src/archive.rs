@@ -29,7 +29,9 @@ impl Archive {
 
     /// Members with their rows.
     pub(crate) fn members(&self) -> impl Iterator<Item = (&Objectives, &[f64])> {
-        self.objectives.iter().zip(self.genes.chunks_exact(self.width.max(1)))
+        self.objectives
+            .iter()
+            .zip(self.genes.chunks_exact(self.width.max(1)))
     }
 
     /// Whether a plan like this would be let in: nobody is as good, and there is room or it takes
@@ -40,7 +42,10 @@ impl Archive {
         {
             return false;
         }
-        let as_good = self.objectives.iter().position(|member| member.no_worse_than(objectives));
+        let as_good = self
+            .objectives
+            .iter()
+            .position(|member| member.no_worse_than(objectives));
         if let Some(as_good) = as_good {
             self.gate = as_good;
             return false;
@@ -77,7 +82,8 @@ impl Archive {
         let last = self.objectives.len() - 1;
         self.objectives.swap_remove(i);
         let from = last * self.width;
-        self.genes.copy_within(from..from + self.width, i * self.width);
+        self.genes
+            .copy_within(from..from + self.width, i * self.width);
         self.genes.truncate(from);
     }
 }

@@ -49,7 +49,8 @@ impl Bees {
     fn note_ranks(&mut self, hive: &Hive) {
         let kept = &hive.sorter.order[..hive.nest.len()];
         self.ranks.clear();
-        self.ranks.extend(kept.iter().map(|&i| hive.sorter.rank[i as usize]));
+        self.ranks
+            .extend(kept.iter().map(|&i| hive.sorter.rank[i as usize]));
         let mut sum = 0.0;
         self.chances.clear();
         self.chances.extend(self.ranks.iter().map(|&rank| {
@@ -70,10 +71,16 @@ impl Bees {
         }
         let common = self.params.common();
         let (encoding, start) = (hive.encoding.clone(), common.start());
-        hive.breed(problem, &common, cx, given_up.len(), &|_, dice, number, row| {
-            // Numbers that no bee has.
-            encoding.draw(start, &mut dice.of(usize::MAX - number), row);
-        });
+        hive.breed(
+            problem,
+            &common,
+            cx,
+            given_up.len(),
+            &|_, dice, number, row| {
+                // Numbers that no bee has.
+                encoding.draw(start, &mut dice.of(usize::MAX - number), row);
+            },
+        );
         for (child, &source) in given_up[..hive.brood.len()].iter().enumerate() {
             hive.nest.replace(source, &hive.brood, child);
             self.trials[source] = 0;
@@ -139,9 +146,15 @@ impl Strategy for Bees {
         self.scout(hive, problem, cx);
         self.assign(hive);
         let (sources, share) = (&self.sources, self.params.share);
-        hive.breed(problem, &self.params.common(), cx, 2 * count, &|nest, dice, bee, row| {
-            visit(nest, sources[bee] as usize, share, &mut dice.of(bee), row);
-        });
+        hive.breed(
+            problem,
+            &self.params.common(),
+            cx,
+            2 * count,
+            &|nest, dice, bee, row| {
+                visit(nest, sources[bee] as usize, share, &mut dice.of(bee), row);
+            },
+        );
         hive.keep_best(count);
         self.fruitful.clear();
         self.fruitful.resize(count, false);

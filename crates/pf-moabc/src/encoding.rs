@@ -66,14 +66,21 @@ pub(crate) enum Start {
 impl Encoding {
     /// For a problem, with steps of a length; 0 for a twentieth of the longest straight way.
     pub(crate) fn of(problem: &TeamProblem, step: f64) -> Self {
-        let ways = problem.robots().iter().map(|robot| robot.goal - robot.start);
-        let longest = ways.clone().fold(0.0, |longest: f64, way| longest.max(way.norm()));
+        let ways = problem
+            .robots()
+            .iter()
+            .map(|robot| robot.goal - robot.start);
+        let longest = ways
+            .clone()
+            .fold(0.0, |longest: f64, way| longest.max(way.norm()));
         let step = if step > 0.0 { step } else { longest / 20.0 };
         // So that a robot which is there already has a step to stand on.
         let step = step.max(longest / MOST_STEPS).max(f64::MIN_POSITIVE);
         let mut begin = 0;
         let rows = ways.map(|way| {
-            let count = (SLACK * way.norm() / step).ceil().clamp(1.0, SLACK * MOST_STEPS);
+            let count = (SLACK * way.norm() / step)
+                .ceil()
+                .clamp(1.0, SLACK * MOST_STEPS);
             #[expect(
                 clippy::cast_possible_truncation,
                 clippy::cast_sign_loss,

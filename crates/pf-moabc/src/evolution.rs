@@ -67,17 +67,14 @@ impl<S: Strategy> Evolution<S> {
         Some(cx.report(Outcome::Infeasible))
     }
 
-    pub(crate) fn plan(
-        &mut self,
-        problem: &TeamProblem,
-        cx: &mut Cx<'_>,
-    ) -> Report<TeamProblem> {
+    pub(crate) fn plan(&mut self, problem: &TeamProblem, cx: &mut Cx<'_>) -> Report<TeamProblem> {
         if let Some(report) = self.refuse(problem, cx) {
             return report;
         }
         let common = self.strategy.common();
         let seed = cx.rng().next_u64();
-        self.hive.open(Encoding::of(problem, common.step), &common, seed);
+        self.hive
+            .open(Encoding::of(problem, common.step), &common, seed);
         self.search(problem, cx)
     }
 
@@ -102,7 +99,10 @@ impl<S: Strategy> Evolution<S> {
             cx.note("replanned", "kept");
             return cx.answer(problem, front.solution, Proof::None);
         }
-        cx.note("replanned", "the population was kept, a fifth of it replaced");
+        cx.note(
+            "replanned",
+            "the population was kept, a fifth of it replaced",
+        );
         self.take_over(problem, changes, cx);
         self.search(problem, cx)
     }
@@ -127,10 +127,16 @@ impl<S: Strategy> Evolution<S> {
         let nest = (0..old.nest.len() * 4 / 5).map(|i| old.nest.row(i));
         let rows: Vec<&[f64]> = nest.chain(front).collect();
         let (encoding, start) = (hive.encoding.clone(), common.start());
-        hive.breed(problem, &common, cx, rows.len(), &|_, dice: Dice, number, row| {
-            let rng = &mut dice.of(number);
-            encoding.take_over(&old.encoding, &origin, rows[number], start, rng, row);
-        });
+        hive.breed(
+            problem,
+            &common,
+            cx,
+            rows.len(),
+            &|_, dice: Dice, number, row| {
+                let rng = &mut dice.of(number);
+                encoding.take_over(&old.encoding, &origin, rows[number], start, rng, row);
+            },
+        );
         hive.keep_best(size - size / 5);
         if let Some(dice) = &mut hive.dice {
             dice.cycle += 1;
@@ -182,14 +188,23 @@ impl<S: Strategy> Evolution<S> {
         let hive = &self.hive;
         if let Some((_, cost)) = &hive.baseline {
             let own = hive.archive.members().count();
-            cx.note("baseline", format!(
-                "{}; evolution found {own} plans. The baseline's costs {:.3}, {:.3}, {:.3}",
-                baseline::NAME, cost[0], cost[1], cost[2]
-            ));
+            cx.note(
+                "baseline",
+                format!(
+                    "{}; evolution found {own} plans. The baseline's costs {:.3}, {:.3}, {:.3}",
+                    baseline::NAME,
+                    cost[0],
+                    cost[1],
+                    cost[2]
+                ),
+            );
         }
         let Some(front) = hive.front(problem) else {
-            let nearest = (0..hive.nest.len())
-                .min_by(|&a, &b| hive.nest.marks[a].excess.total_cmp(&hive.nest.marks[b].excess));
+            let nearest = (0..hive.nest.len()).min_by(|&a, &b| {
+                hive.nest.marks[a]
+                    .excess
+                    .total_cmp(&hive.nest.marks[b].excess)
+            });
             let attempt = nearest.map(|i| {
                 let plan = hive.encoding.plan(problem, hive.nest.row(i));
                 Front::unchecked(vec![plan])

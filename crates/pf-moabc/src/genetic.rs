@@ -44,7 +44,11 @@ pub(crate) fn cross(
 ) {
     let power = 1.0 / (index + 1.0);
     for ((gene, &a), &b) in row.iter_mut().zip(a).zip(b) {
-        let (changes, u, swaps) = (rng.random_bool(0.5), rng.random::<f64>(), rng.random_bool(0.5));
+        let (changes, u, swaps) = (
+            rng.random_bool(0.5),
+            rng.random::<f64>(),
+            rng.random_bool(0.5),
+        );
         let side = second ^ (changes && swaps);
         *gene = if second { b } else { a };
         if !changes || (a - b).abs() < 1e-14 {
@@ -56,6 +60,10 @@ pub(crate) fn cross(
             libm::pow(1.0 / (2.0 * (1.0 - u)), power)
         };
         let (mean, half) = (f64::midpoint(a, b), (b - a) / 2.0);
-        *gene = if side { mean + spread * half } else { mean - spread * half };
+        *gene = if side {
+            mean + spread * half
+        } else {
+            mean - spread * half
+        };
     }
 }

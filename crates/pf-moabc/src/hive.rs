@@ -113,7 +113,8 @@ impl Hive {
         self.brood.marks.resize(first + count, Mark::default());
         // Threads are not worth starting for a handful.
         let threads = common.threads.min(count / 16).max(1);
-        self.scratch.resize_with(threads.max(self.scratch.len()), Scratch::default);
+        self.scratch
+            .resize_with(threads.max(self.scratch.len()), Scratch::default);
         let share = count.div_ceil(threads).max(1);
         let (nest, encoding) = (&self.nest, &self.encoding);
         let work = |number: usize, genes: &mut [f64], marks: &mut [Mark], own: &mut Scratch| {

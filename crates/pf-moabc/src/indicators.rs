@@ -14,7 +14,9 @@
 /// Thiele 1998; While et al. 2006): O(n log n) for two, O(n^2) for three, a factor n for each more.
 #[must_use]
 pub fn hypervolume<const N: usize>(front: &[[f64; N]], reference: &[f64; N]) -> f64 {
-    let inside = front.iter().filter(|point| (0..N).all(|k| point[k] < reference[k]));
+    let inside = front
+        .iter()
+        .filter(|point| (0..N).all(|k| point[k] < reference[k]));
     let mut points: Vec<&[f64]> = inside.map(<[f64; N]>::as_slice).collect();
     volume(&mut points, reference)
 }
@@ -72,13 +74,18 @@ fn sweep(points: &[&[f64]], reference: &[f64]) -> f64 {
         };
         if y < height {
             let from = stairs.partition_point(|step| step[0] < x);
-            let beaten = stairs[from..].iter().take_while(|step| step[1] >= y).count();
+            let beaten = stairs[from..]
+                .iter()
+                .take_while(|step| step[1] >= y)
+                .count();
             let mut left = x;
             for step in &stairs[from..from + beaten] {
                 covered += (step[0] - left) * (height - y).max(0.0);
                 (left, height) = (step[0], step[1]);
             }
-            let right = stairs.get(from + beaten).map_or(reference[0], |step| step[0]);
+            let right = stairs
+                .get(from + beaten)
+                .map_or(reference[0], |step| step[0]);
             covered += (right - left) * (height - y).max(0.0);
             stairs.splice(from..from + beaten, [[x, y]]);
         }
@@ -116,7 +123,10 @@ pub fn additive_epsilon<const N: usize>(front: &[[f64; N]], reference: &[[f64; N
         let all = front.iter().map(|own| shift(own, wanted));
         all.fold(f64::INFINITY, f64::min)
     };
-    reference.iter().map(least).fold(f64::NEG_INFINITY, f64::max)
+    reference
+        .iter()
+        .map(least)
+        .fold(f64::NEG_INFINITY, f64::max)
 }
 
 /// How unevenly the members lie: the standard deviation of the distances to the next one, in the
@@ -128,7 +138,9 @@ pub fn spacing<const N: usize>(front: &[[f64; N]]) -> f64 {
         let far = |other: &[f64; N]| -> f64 {
             front[i].iter().zip(other).map(|(a, b)| (a - b).abs()).sum()
         };
-        others.map(|(_, other)| far(other)).fold(f64::INFINITY, f64::min)
+        others
+            .map(|(_, other)| far(other))
+            .fold(f64::INFINITY, f64::min)
     };
     if front.len() < 3 {
         return 0.0;
@@ -166,7 +178,9 @@ pub fn error_rate<const N: usize>(front: &[[f64; N]], truth: &[[f64; N]]) -> f64
         let equal = |other: &[f64; N]| (0..N).all(|k| point[k].total_cmp(&other[k]).is_eq());
         truth.iter().any(equal)
     };
-    let off = front.iter().map(|point| if on_it(&point) { 0.0 } else { 1.0 });
+    let off = front
+        .iter()
+        .map(|point| if on_it(&point) { 0.0 } else { 1.0 });
     average(off)
 }
 

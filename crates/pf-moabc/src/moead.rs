@@ -145,7 +145,8 @@ fn lattice(most: usize) -> Vec<Objectives> {
     #[expect(clippy::cast_precision_loss, reason = "small numbers")]
     let part = |n: usize| (n as f64 / h as f64).max(1e-4);
     let rows = (0..=h).flat_map(|i| (0..=h - i).map(move |j| (i, j)));
-    rows.map(|(i, j)| [part(i), part(j), part(h - i - j)]).collect()
+    rows.map(|(i, j)| [part(i), part(j), part(h - i - j)])
+        .collect()
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "numbers of members")]
@@ -197,7 +198,11 @@ impl Strategy for Directions {
         let (count, encoding) = (hive.nest.len(), hive.encoding.clone());
         #[expect(clippy::cast_precision_loss, reason = "a number of numbers")]
         let one = 1.0 / hive.nest.width.max(1) as f64;
-        let rate = if self.params.mutation > 0.0 { self.params.mutation } else { one };
+        let rate = if self.params.mutation > 0.0 {
+            self.params.mutation
+        } else {
+            one
+        };
         let (common, index) = (self.params.common(), self.params.mutation_index);
         // Without a whole population there are no neighbours.
         let mut done = if count < self.weights.len() { count } else { 0 };
@@ -206,7 +211,13 @@ impl Strategy for Directions {
             hive.breed(problem, &common, cx, batch, &|nest, dice, number, row| {
                 self.child(nest, dice, number, row);
                 encoding.clamp(row);
-                mutate(&encoding, row, rate, index, &mut dice.of(number + usize::MAX / 2));
+                mutate(
+                    &encoding,
+                    row,
+                    rate,
+                    index,
+                    &mut dice.of(number + usize::MAX / 2),
+                );
             });
             let dice = hive.dice();
             self.measure(&hive.nest);

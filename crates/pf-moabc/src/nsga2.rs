@@ -59,19 +59,35 @@ impl Strategy for Genes {
         let params = &self.params;
         #[expect(clippy::cast_precision_loss, reason = "a number of numbers")]
         let one = 1.0 / hive.nest.width.max(1) as f64;
-        let rate = if params.mutation > 0.0 { params.mutation } else { one };
-        hive.breed(problem, &params.common(), cx, count, &|nest, dice, number, row| {
-            let pair = &mut of_pair(dice, number);
-            let (a, b) = (tournament(count, pair), tournament(count, pair));
-            let (a, b, second) = (nest.row(a), nest.row(b), number % 2 == 1);
-            if pair.random_bool(params.crossover) {
-                cross(a, b, second, params.crossover_index, pair, row);
-            } else {
-                row.copy_from_slice(if second { b } else { a });
-            }
-            encoding.clamp(row);
-            mutate(&encoding, row, rate, params.mutation_index, &mut dice.of(number));
-        });
+        let rate = if params.mutation > 0.0 {
+            params.mutation
+        } else {
+            one
+        };
+        hive.breed(
+            problem,
+            &params.common(),
+            cx,
+            count,
+            &|nest, dice, number, row| {
+                let pair = &mut of_pair(dice, number);
+                let (a, b) = (tournament(count, pair), tournament(count, pair));
+                let (a, b, second) = (nest.row(a), nest.row(b), number % 2 == 1);
+                if pair.random_bool(params.crossover) {
+                    cross(a, b, second, params.crossover_index, pair, row);
+                } else {
+                    row.copy_from_slice(if second { b } else { a });
+                }
+                encoding.clamp(row);
+                mutate(
+                    &encoding,
+                    row,
+                    rate,
+                    params.mutation_index,
+                    &mut dice.of(number),
+                );
+            },
+        );
         hive.keep_best(count);
     }
 }

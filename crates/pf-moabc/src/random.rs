@@ -39,8 +39,14 @@ impl Strategy for Draws {
     fn cycle(&mut self, hive: &mut Hive, problem: &TeamProblem, cx: &mut Context<'_, TeamProblem>) {
         let common = self.params.common();
         let (encoding, start) = (hive.encoding.clone(), common.start());
-        hive.breed(problem, &common, cx, common.population, &|_, dice, number, row| {
-            encoding.draw(start, &mut dice.of(number), row);
-        });
+        hive.breed(
+            problem,
+            &common,
+            cx,
+            common.population,
+            &|_, dice, number, row| {
+                encoding.draw(start, &mut dice.of(number), row);
+            },
+        );
     }
 }

@@ -193,7 +193,11 @@ mod tests {
             }
             sorter.sort(&marks);
             assert_eq!(sorter.rank, peeled(&marks));
-            let ranks: Vec<_> = sorter.order.iter().map(|&i| sorter.rank[i as usize]).collect();
+            let ranks: Vec<_> = sorter
+                .order
+                .iter()
+                .map(|&i| sorter.rank[i as usize])
+                .collect();
             assert!(ranks.is_sorted());
         }
     }
