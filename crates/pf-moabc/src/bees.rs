@@ -1,10 +1,13 @@
 //! Wang, Li, Dou, Li, Zhao, Li: *A Novel Multi-objective Artificial Bee Colony Algorithm for
 //! Multi-robot Path Planning*.
 
+mod classic;
+
 use crate::{
     evolution::{Strategy, evolution},
     hive::{Hive, Rows},
     params::{Common, MoabcParams, Rules},
+    sort::Sorter,
 };
 use pf_core::{Context, PlanRng};
 use pf_geom::TeamProblem;
@@ -30,6 +33,9 @@ pub(crate) struct Bees {
     sources: Vec<u32>,
     fruitful: Vec<bool>,
     before: Vec<u32>,
+    /// The external archive of the classic rules.
+    elite: Rows,
+    sorter: Sorter,
 }
 
 impl Bees {
@@ -42,6 +48,8 @@ impl Bees {
             sources: Vec::new(),
             fruitful: Vec::new(),
             before: Vec::new(),
+            elite: Rows::default(),
+            sorter: Sorter::default(),
         }
     }
 
@@ -107,9 +115,16 @@ impl Bees {
 }
 
 /// A plan near a source: on a share of the numbers a step towards another one or away from it
-/// (eq. 3).
-fn visit(nest: &Rows, source: usize, share: f64, rng: &mut PlanRng, row: &mut [f64]) {
-    row.copy_from_slice(nest.row(source));
+/// (eq. 3). Onlookers of the classic rules are led by a plan in place of their source.
+fn visit(
+    nest: &Rows,
+    source: usize,
+    leader: Option<&[f64]>,
+    share: f64,
+    rng: &mut PlanRng,
+    row: &mut [f64],
+) {
+    row.copy_from_slice(leader.unwrap_or_else(|| nest.row(source)));
     let mut other = rng.random_range(0..nest.len() - 1);
     other += usize::from(other >= source);
     let other = nest.row(other);
@@ -133,6 +148,7 @@ impl Strategy for Bees {
     fn begin(&mut self, hive: &mut Hive) {
         let count = hive.nest.len();
         hive.keep_best(count);
+        self.elite.clear(hive.nest.width);
         self.trials.clear();
         self.trials.resize(count, 0);
         self.note_ranks(hive);
@@ -144,6 +160,10 @@ impl Strategy for Bees {
             return;
         }
         self.scout(hive, problem, cx);
+        if self.params.rules == Rules::Classic {
+            self.go(hive, problem, cx);
+            return;
+        }
         self.assign(hive);
         let (sources, share) = (&self.sources, self.params.share);
         hive.breed(
@@ -152,7 +172,8 @@ impl Strategy for Bees {
             cx,
             2 * count,
             &|nest, dice, bee, row| {
-                visit(nest, sources[bee] as usize, share, &mut dice.of(bee), row);
+                let source = sources[bee] as usize;
+                visit(nest, source, None, share, &mut dice.of(bee), row);
             },
         );
         hive.keep_best(count);

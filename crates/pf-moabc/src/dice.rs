@@ -11,7 +11,7 @@ pub(crate) struct Dice {
 }
 
 impl Dice {
-    /// The generator of one number, whoever asks for it (Steele, Lea, Flood 2014: SplitMix64).
+    /// The generator of one number, whoever asks for it (Steele, Lea, Flood 2014).
     pub(crate) fn of(self, number: usize) -> PlanRng {
         let mut state = self.seed;
         for part in [self.cycle, number as u64] {

@@ -5,7 +5,7 @@ use crate::{
     dice::Dice,
     encoding::Encoding,
     hive::Hive,
-    params::Common,
+    params::{Common, PrioritisedParams},
 };
 use pf_core::{Context, Front, Outcome, Problem, Proof, Report, Revision, Stamp};
 use pf_geom::{TeamChange, TeamProblem};
@@ -186,16 +186,14 @@ impl<S: Strategy> Evolution<S> {
     /// Reports the front, or the nearest miss.
     fn close(&mut self, problem: &TeamProblem, cx: &mut Cx<'_>) -> Report<TeamProblem> {
         let hive = &self.hive;
-        if let Some((_, cost)) = &hive.baseline {
+        if let Some((_, [length, danger, turning])) = &hive.baseline {
             let own = hive.archive.members().count();
             cx.note(
                 "baseline",
                 format!(
-                    "{}; evolution found {own} plans. The baseline's costs {:.3}, {:.3}, {:.3}",
+                    "{}; evolution found {own} plans. the baseline's: length {:.3}, danger {:.3}, turning {:.3}",
                     baseline::NAME,
-                    cost[0],
-                    cost[1],
-                    cost[2]
+                    length, danger, turning
                 ),
             );
         }
@@ -217,7 +215,7 @@ impl<S: Strategy> Evolution<S> {
 
 /// Asks the baseline for a plan, and puts it into the hive.
 fn ask_baseline(hive: &mut Hive, problem: &TeamProblem, cx: &mut Cx<'_>) -> Verdict {
-    let verdict = baseline::plan(problem, cx);
+    let verdict = baseline::plan(problem, &PrioritisedParams::default(), cx);
     if let Verdict::Plan(plan) = &verdict
         && let Ok(cost) = problem.judge_plan(plan)
     {

@@ -1,4 +1,4 @@
-//! x
+#![doc = include_str!("../README.md")]
 
 mod archive;
 mod baseline;
@@ -15,8 +15,11 @@ mod params;
 mod random;
 mod sort;
 
+pub use baseline::Prioritised;
 pub use bees::Moabc;
 pub use moead::Moead;
 pub use nsga2::Nsga2;
-pub use params::{MoabcParams, MoeadParams, Nsga2Params, RandomSearchParams, Rules};
+pub use params::{
+    MoabcParams, MoeadParams, Nsga2Params, PrioritisedParams, RandomSearchParams, Rules,
+};
 pub use random::RandomSearch;

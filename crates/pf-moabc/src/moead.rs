@@ -141,7 +141,7 @@ impl Directions {
 /// Directions spread evenly over the simplex, as many as there are in a lattice, at most `most`.
 fn lattice(most: usize) -> Vec<Objectives> {
     let fits = |h: &usize| (h + 1) * (h + 2) / 2 <= most;
-    let h = (1..).take_while(fits).last().unwrap_or(1);
+    let h = (1..=most).take_while(fits).last().unwrap_or(1);
     #[expect(clippy::cast_precision_loss, reason = "small numbers")]
     let part = |n: usize| (n as f64 / h as f64).max(1e-4);
     let rows = (0..=h).flat_map(|i| (0..=h - i).map(move |j| (i, j)));

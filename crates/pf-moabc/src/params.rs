@@ -50,7 +50,7 @@ macro_rules! front_params {
                     population: 100,
                     evaluations: 20_000,
                     step: 0.0,
-                    fan: 1.0,
+                    fan: 1.4,
                     noise: 0.2,
                     archive: 2000,
                     patience: 20,
@@ -72,6 +72,7 @@ macro_rules! front_params {
         });
 
         impl $name {
+            /// What it has in common with the others.
             pub(crate) fn common(&self) -> Common {
                 Common {
                     population: self.population,
@@ -123,6 +124,36 @@ front_params! {
 front_params! {
     /// How [`RandomSearch`](crate::RandomSearch) plans.
     RandomSearchParams {}
+}
+
+/// How [`Prioritised`](crate::Prioritised) plans.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PrioritisedParams {
+    /// The number of cells along the longer side of the world.
+    pub cells: usize,
+    /// The number of orders of the robots to try.
+    pub attempts: usize,
+}
+
+impl Default for PrioritisedParams {
+    fn default() -> Self {
+        Self {
+            cells: 100,
+            attempts: 20,
+        }
+    }
+}
+
+params!(PrioritisedParams {
+    cells: usize = "number of cells along the longer side of the world",
+    attempts: usize = "number of orders of the robots to try",
+});
+
+impl PrioritisedParams {
+    pub(crate) fn check(&self) -> Result<(), InvalidParams> {
+        whole("cells", self.cells, 2..=1000)?;
+        whole("attempts", self.attempts, 1..=100_000)
+    }
 }
 
 /// Whose bees.

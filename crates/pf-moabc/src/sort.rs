@@ -1,20 +1,10 @@
 //! Which is better: constrained domination, ranks and crowding.
 
-use pf_core::Cost;
 use pf_geom::{Mark, Objectives};
 
-/// Constrained domination (Deb 2000): what is feasible beats what is not; of two that are not, the
-/// one nearer to it; of two that are, the one that dominates.
-pub(crate) fn beats(a: &Mark, b: &Mark) -> bool {
-    match (a.excess > 0.0, b.excess > 0.0) {
-        (false, false) => a.objectives.beats(&b.objectives),
-        (false, true) => true,
-        (true, false) => false,
-        (true, true) => a.excess < b.excess,
-    }
-}
-
-/// Sorts marks by rank and crowding. Keeps its lists from call to call.
+/// Sorts marks by constrained domination (Deb 2000: what is feasible beats what is not; of two that
+/// are not, the one nearer to it; of two that are, the one that dominates), rank and crowding. Keeps
+/// its lists from call to call.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Sorter {
     /// By member: 0 for those that nobody beats.
@@ -157,8 +147,17 @@ fn same(a: &Mark, b: &Mark) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pf_core::PlanRng;
+    use pf_core::{Cost, PlanRng};
     use rand::{RngExt, SeedableRng};
+
+    fn beats(a: &Mark, b: &Mark) -> bool {
+        match (a.excess > 0.0, b.excess > 0.0) {
+            (false, false) => a.objectives.beats(&b.objectives),
+            (false, true) => true,
+            (true, false) => false,
+            (true, true) => a.excess < b.excess,
+        }
+    }
 
     /// By definition: the fronts are peeled off one after the other.
     fn peeled(marks: &[Mark]) -> Vec<u32> {

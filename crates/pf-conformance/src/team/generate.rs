@@ -60,11 +60,11 @@ pub fn crossing(seed: u64, recipe: &TeamRecipe) -> TeamProblem {
         Robot::new(start, goal).with_radius(recipe.radius)
     });
     let robots: Vec<Robot> = robots.collect();
-    let spare = 2.0 * recipe.radius + 2.0;
+    let room = 2.0 * recipe.radius + 2.0;
     let mut shapes: Vec<Shape> = Vec::new();
     while shapes.len() < recipe.obstacles {
         let another = obstacle(&mut rng, recipe.kind);
-        let near = |p: Point| another.distance(&Segment::new(p, p)) < spare;
+        let near = |p: Point| another.distance(&Segment::new(p, p)) < room;
         if !robots
             .iter()
             .any(|robot| near(robot.start) || near(robot.goal))

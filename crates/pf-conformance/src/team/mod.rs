@@ -13,7 +13,7 @@ use pf_geom::TeamProblem;
 /// How thorough [`check`] is: planners for teams take seconds where others take milliseconds.
 fn options() -> Options {
     Options {
-        cases: 12,
+        cases: 6,
         ..Options::default()
     }
 }

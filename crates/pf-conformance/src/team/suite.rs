@@ -108,7 +108,9 @@ fn one_by_one(plan: &TeamPlan) -> TeamPlan {
     for path in &plan.paths {
         let mut path = path.clone();
         let first = path[0];
-        path.iter_mut().for_each(|p| p.time += begin);
+        for p in &mut path {
+            p.time += begin;
+        }
         begin = path[path.len() - 1].time;
         path.insert(0, first);
         late.paths.push(path);
