@@ -18,6 +18,7 @@ mod replan;
 mod report;
 mod scen;
 mod spot;
+mod team;
 mod text;
 mod view;
 mod words;
@@ -42,6 +43,7 @@ Examples:
   pf plan arena.map --scen arena.map.scen
   pf replan door.toml --planner d-star-lite --json
   pf drive maze.map --sensor 10 --svg drive.svg
+  pf team three-robots.toml --prefer safety --svg front.svg
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed
@@ -56,6 +58,8 @@ enum Verb {
     Replan(replan::Args),
     /// Drive a robot with a sensor through a map it does not know
     Drive(drive::Args),
+    /// Plan for several robots at once and choose from a front of plans
+    Team(team::Args),
     /// Run the experiment of a paper again
     Paper(paper::Args),
     /// List the planners
@@ -78,6 +82,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Plan(args) => plan::act(&args, &cancel),
         Verb::Replan(args) => replan::act(&args, &cancel),
         Verb::Drive(args) => drive::act(&args, &cancel),
+        Verb::Team(args) => team::act(&args, &cancel),
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),

@@ -3,6 +3,7 @@
 mod archive;
 mod baseline;
 mod bees;
+mod choice;
 mod dice;
 mod encoding;
 mod evolution;
@@ -17,6 +18,7 @@ mod sort;
 
 pub use baseline::Prioritised;
 pub use bees::Moabc;
+pub use choice::Preference;
 pub use moead::Moead;
 pub use nsga2::Nsga2;
 pub use params::{

@@ -14,19 +14,32 @@ const KINDS: [&str; 6] = ["ours", "paper", "classic", "nsga2", "moead", "random"
 
 fn with<P: Params>(mut params: P, settings: &[(&str, &str)]) -> P {
     for (key, value) in settings {
-        params.set(key, value).unwrap();
+        params.set(key, value).expect("a parameter");
     }
     params
 }
 
 fn planner(kind: &str, settings: &[(&str, &str)]) -> Box<dyn Replanner<TeamProblem>> {
     match kind {
-        "ours" => Box::new(Moabc::new(with(MoabcParams::default(), settings)).unwrap()),
-        "paper" => Box::new(Moabc::new(with(MoabcParams::paper(), settings)).unwrap()),
-        "classic" => Box::new(Moabc::new(with(MoabcParams::classic(), settings)).unwrap()),
-        "nsga2" => Box::new(Nsga2::new(with(Nsga2Params::default(), settings)).unwrap()),
-        "moead" => Box::new(Moead::new(with(MoeadParams::default(), settings)).unwrap()),
-        _ => Box::new(RandomSearch::new(with(RandomSearchParams::default(), settings)).unwrap()),
+        "ours" => {
+            Box::new(Moabc::new(with(MoabcParams::default(), settings)).expect("good parameters"))
+        }
+        "paper" => {
+            Box::new(Moabc::new(with(MoabcParams::paper(), settings)).expect("good parameters"))
+        }
+        "classic" => {
+            Box::new(Moabc::new(with(MoabcParams::classic(), settings)).expect("good parameters"))
+        }
+        "nsga2" => {
+            Box::new(Nsga2::new(with(Nsga2Params::default(), settings)).expect("good parameters"))
+        }
+        "moead" => {
+            Box::new(Moead::new(with(MoeadParams::default(), settings)).expect("good parameters"))
+        }
+        _ => Box::new(
+            RandomSearch::new(with(RandomSearchParams::default(), settings))
+                .expect("good parameters"),
+        ),
     }
 }
 
