@@ -8,6 +8,7 @@ use pf_papers::{
     page::{Figure, write_report},
     redlarski::{self, tune},
     row::{Row, tables},
+    wang,
 };
 use serde::Serialize;
 use std::{
@@ -29,6 +30,8 @@ enum Paper {
     Kim(KimArgs),
     /// Swarms of waypoints round one obstacle
     Faustino(FaustinoArgs),
+    /// Bees and others on fronts of plans for one robot and for three
+    Wang(WangArgs),
     /// Rivers and ants on nine grids: five tables
     Redlarski(RedlarskiArgs),
     /// Search parameters for RFD* on made-up maps, and check them on the paper's nine
@@ -49,6 +52,22 @@ struct FaustinoArgs {
     /// Scenes for each format of obstacle and number of particles, besides the paper's 240 runs
     #[arg(long, value_name = "N", default_value_t = 1000, value_parser = clap::value_parser!(u32).range(1..))]
     runs: u32,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  pf paper wang --only three-discs
+  pf paper wang --runs 30 --report report")]
+struct WangArgs {
+    /// Runs of each planner
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    /// Only the problems whose name contains this
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
     #[command(flatten)]
     output: Output,
 }
@@ -110,6 +129,7 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     let done = match &args.paper {
         Paper::Kim(args) => act_kim(args, cancel),
         Paper::Faustino(args) => act_faustino(args, cancel),
+        Paper::Wang(args) => act_wang(args, cancel),
         Paper::Redlarski(args) => act_redlarski(args, cancel),
         Paper::RedlarskiTune(args) => act_tune(args, cancel),
     };
@@ -168,6 +188,22 @@ fn act_faustino(args: &FaustinoArgs, cancel: &CancelToken) -> Result<(), Stopped
     bar.finish_and_clear();
     args.output
         .put("Swarms of waypoints", &rows?, faustino::figures)
+}
+
+fn act_wang(args: &WangArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    let options = wang::Options {
+        runs: args.runs,
+        only: args.only.clone(),
+        cancel: cancel.clone(),
+    };
+    let bar = bar();
+    let rows = wang::run(&options, &mut |done, all, what| {
+        tell(&bar, done, all, what);
+    });
+    bar.finish_and_clear();
+    let rows = rows?;
+    let title = "Fronts and teams";
+    args.output.put(title, &rows, || wang::figures(&rows))
 }
 
 impl Output {

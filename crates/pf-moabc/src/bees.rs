@@ -166,6 +166,7 @@ impl Strategy for Bees {
         }
         self.assign(hive);
         let (sources, share) = (&self.sources, self.params.share);
+        let (encoding, mending) = (hive.encoding.clone(), self.params.mending);
         hive.breed(
             problem,
             &self.params.common(),
@@ -173,7 +174,11 @@ impl Strategy for Bees {
             2 * count,
             &|nest, dice, bee, row| {
                 let source = sources[bee] as usize;
-                visit(nest, source, None, share, &mut dice.of(bee), row);
+                let rng = &mut dice.of(bee);
+                visit(nest, source, None, share, rng, row);
+                if mending > 0.0 && rng.random_bool(mending) {
+                    encoding.straighten(rng, row);
+                }
             },
         );
         hive.keep_best(count);

@@ -53,6 +53,16 @@ impl Scratch {
     }
 }
 
+/// Where steps in these directions lead.
+fn direction(headings: &[f64]) -> f64 {
+    let (mut x, mut y) = (0.0, 0.0);
+    for heading in headings {
+        let (sin, cos) = libm::sincos(*heading);
+        (x, y) = (x + cos, y + sin);
+    }
+    libm::atan2(y, x)
+}
+
 /// How rows begin.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Start {
@@ -152,6 +162,32 @@ impl Encoding {
                     *gene = bearing + across + rng.random_range(-noise..=noise);
                 }
             }
+        }
+    }
+
+    /// Makes a stretch of one robot's way straighter and its curve more even, in part or wholly; the
+    /// stretch leads in the same direction as before.
+    pub(crate) fn straighten(&self, rng: &mut PlanRng, genes: &mut [f64]) {
+        let (row, _) = &self.rows[rng.random_range(0..self.rows.len())];
+        if row.len() < 3 {
+            return;
+        }
+        let (a, b) = (rng.random_range(row.clone()), rng.random_range(row.clone()));
+        let stretch = &mut genes[a.min(b)..=a.max(b)];
+        let weight = rng.random::<f64>();
+        let before = direction(stretch);
+        #[expect(clippy::cast_precision_loss, reason = "numbers of steps")]
+        let last = (stretch.len() - 1).max(1) as f64;
+        let (first, end) = (stretch[0], stretch[stretch.len() - 1]);
+        for (j, gene) in stretch.iter_mut().enumerate() {
+            #[expect(clippy::cast_precision_loss, reason = "numbers of steps")]
+            let even = first + (end - first) * (j as f64 / last);
+            *gene += weight * (even - *gene);
+        }
+        let turned = before - direction(stretch);
+        let turned = libm::remainder(turned, 2.0 * PI);
+        for gene in stretch {
+            *gene += turned;
         }
     }
 

@@ -95,6 +95,7 @@ front_params! {
     MoabcParams {
         share: f64 = 0.5, "share of the numbers that a bee changes";
         limit: u32 = 100, "number of failures after which a source outside the first front is given up";
+        mending: f64 = 0.0, "share of the bees that straighten a stretch of a way";
         rules: Rules = Rules::Ours, "rules: ours, paper or classic";
     }
 }
@@ -194,6 +195,17 @@ impl MoabcParams {
         }
     }
 
+    /// A variant of ours: most bees change less and straighten a stretch of a way besides. Unlike the
+    /// others' moves this one knows what the numbers mean.
+    #[must_use]
+    pub fn mending() -> Self {
+        Self {
+            mending: 0.8,
+            share: 0.2,
+            ..Self::default()
+        }
+    }
+
     /// The algorithm the paper starts from (Section II): bees update sources as they go, and
     /// onlookers are led by an external archive that is sorted anew for each of them.
     #[must_use]
@@ -206,6 +218,7 @@ impl MoabcParams {
 
     pub(crate) fn check(&self) -> Result<(), InvalidParams> {
         number("share", self.share, 0.0..=1.0)?;
+        number("mending", self.mending, 0.0..=1.0)?;
         self.common().check()
     }
 }
