@@ -166,6 +166,8 @@ impl Strategy for Bees {
         }
         self.assign(hive);
         let (sources, share) = (&self.sources, self.params.share);
+        // Ours: every other bee of a team changes the way of one robot only.
+        let single = self.params.rules == Rules::Ours && hive.encoding.robots() > 1;
         let (encoding, mending) = (hive.encoding.clone(), self.params.mending);
         hive.breed(
             problem,
@@ -176,6 +178,9 @@ impl Strategy for Bees {
                 let source = sources[bee] as usize;
                 let rng = &mut dice.of(bee);
                 visit(nest, source, None, share, rng, row);
+                if single && rng.random_bool(0.5) {
+                    encoding.keep_one(rng, nest.row(source), row);
+                }
                 if mending > 0.0 && rng.random_bool(mending) {
                     encoding.straighten(rng, row);
                 }

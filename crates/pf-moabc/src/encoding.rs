@@ -165,6 +165,13 @@ impl Encoding {
         }
     }
 
+    /// Takes back what was changed but for one robot.
+    pub(crate) fn keep_one(&self, rng: &mut PlanRng, before: &[f64], genes: &mut [f64]) {
+        let (kept, _) = &self.rows[rng.random_range(0..self.rows.len())];
+        genes[..kept.start].copy_from_slice(&before[..kept.start]);
+        genes[kept.end..].copy_from_slice(&before[kept.end..]);
+    }
+
     /// Makes a stretch of one robot's way straighter and its curve more even, in part or wholly; the
     /// stretch leads in the same direction as before.
     pub(crate) fn straighten(&self, rng: &mut PlanRng, genes: &mut [f64]) {

@@ -201,7 +201,7 @@ impl MoabcParams {
     pub fn mending() -> Self {
         Self {
             mending: 0.8,
-            share: 0.2,
+            share: 0.3,
             ..Self::default()
         }
     }
