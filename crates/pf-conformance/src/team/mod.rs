@@ -4,6 +4,7 @@ mod generate;
 mod suite;
 
 pub use generate::{TeamRecipe, crossing};
+pub(crate) use suite::one_by_one;
 pub use suite::{Teams, team_batch};
 
 use crate::{Options, examine, examine_replanner, verdict::expect_all};

@@ -102,7 +102,7 @@ impl Suite for Teams {
 }
 
 /// The same paths, each robot setting out when the one before has arrived.
-fn one_by_one(plan: &TeamPlan) -> TeamPlan {
+pub(crate) fn one_by_one(plan: &TeamPlan) -> TeamPlan {
     let mut late = TeamPlan::default();
     let mut begin = 0.0;
     for path in &plan.paths {
@@ -189,7 +189,9 @@ fn ends_batch(rng: &mut PlanRng, problem: &TeamProblem) -> Vec<TeamChange> {
         let end = *pick(rng, &[robot.start, robot.goal]);
         return vec![TeamChange::Added(circle(end.x, end.y, 1.0))];
     }
-    batch(rng, problem, |_| true)
+    let mut batch = batch(rng, problem, |_| true);
+    batch.retain(|change| !matches!(change, TeamChange::RobotAdded(_)));
+    batch
 }
 
 fn batch(
