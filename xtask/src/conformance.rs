@@ -6,7 +6,8 @@ use anyhow::{Result, ensure};
 use pf_conformance::{
     Options, Suite, examine_replanner,
     grid::Grids,
-    rogues::{rogues, world_rogues},
+    rogues::{rogues, team_rogues, world_rogues},
+    team::Teams,
     world::Worlds,
 };
 use pf_planners::Entry;
@@ -42,6 +43,9 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
     }
     for planner in pf_planners::world_planners().filter(|planner| wanted(planner.key())) {
         hold(&Worlds, &options, planner, &mut tally)?;
+    }
+    for planner in pf_planners::team_planners().filter(|planner| wanted(planner.key())) {
+        hold(&Teams, &options, planner, &mut tally)?;
     }
     ensure!(tally != Tally::default(), "no law was checked");
     if args.planner.is_none() {
@@ -105,7 +109,10 @@ fn examine_rogues(tally: &mut Tally) {
     let in_worlds = world_rogues()
         .into_iter()
         .map(|rogue| (rogue.law, rogue.sin, rogue.examine()));
-    let examined: Vec<_> = on_grids.chain(in_worlds).collect();
+    let for_teams = team_rogues()
+        .into_iter()
+        .map(|rogue| (rogue.law, rogue.sin, rogue.examine()));
+    let examined: Vec<_> = on_grids.chain(in_worlds).chain(for_teams).collect();
     panic::set_hook(hook);
     for (law, sin, verdicts) in examined {
         let broken = verdicts.iter().filter(|verdict| !verdict.passed());

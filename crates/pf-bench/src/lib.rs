@@ -7,6 +7,7 @@
 mod cases;
 mod contenders;
 mod drive;
+mod fronts;
 mod grid;
 mod memory;
 mod protocol;
@@ -30,6 +31,8 @@ struct Cli {
 enum Suite {
     /// A robot with a sensor in an unknown map: all planning of a drive, beside a fresh A*
     Drive(drive::Args),
+    /// What planners for teams take for an evaluation, for sorting, and over threads
+    Fronts(fronts::Args),
     /// A*, Dijkstra and their peers on the queries of Moving AI scenario files
     Grid(grid::Args),
     /// Bytes a cell that planners take on grids of 4096 x 4096
@@ -63,6 +66,7 @@ pub type Counter = fn(&mut dyn FnMut()) -> Counted;
 pub fn run(counter: Option<Counter>) -> Result<()> {
     match Cli::parse().suite {
         Suite::Drive(args) => drive::run(&args),
+        Suite::Fronts(args) => fronts::run(&args),
         Suite::Grid(args) => grid::run(&args, counter),
         Suite::Memory(args) => memory::run(&args),
         Suite::Replan(args) => replan::run(&args),

@@ -18,6 +18,7 @@ mod replan;
 mod report;
 mod scen;
 mod spot;
+mod team;
 mod text;
 mod tune;
 mod view;
@@ -45,6 +46,7 @@ Examples:
   pf replan door.toml --planner d-star-lite --json
   pf drive maze.map --sensor 10 --svg drive.svg
   pf walk maps/scenarios/busy-square.toml --png walk.png
+  pf team three-robots.toml --prefer safety --svg front.svg
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed
@@ -61,6 +63,8 @@ enum Verb {
     Drive(drive::Args),
     /// Walk a robot through a world it does not know, step by step, while things happen there
     Walk(walk::Args),
+    /// Plan for several robots at once and choose from a front of plans
+    Team(team::Args),
     /// Run the experiment of a paper again
     Paper(paper::Args),
     /// Search the weights by which bees walk short ways that arrive
@@ -87,6 +91,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Drive(args) => drive::act(&args, &cancel),
         Verb::Walk(args) => walk::act(&args, &cancel),
         Verb::Tune(args) => tune::act(&args, &cancel),
+        Verb::Team(args) => team::act(&args, &cancel),
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),

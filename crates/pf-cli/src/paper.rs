@@ -8,6 +8,7 @@ use pf_papers::{
     page::{Figure, write_report},
     redlarski::{self, tune},
     row::{Row, tables},
+    wang,
 };
 use serde::Serialize;
 use std::{
@@ -31,6 +32,8 @@ enum Paper {
     Faustino(FaustinoArgs),
     /// Bees that walk two unknown maps: seven tables, and what a memory does for them
     Cabc(CabcArgs),
+    /// Bees and others on fronts of plans for one robot and for three
+    Wang(WangArgs),
     /// Rivers and ants on nine grids: five tables
     Redlarski(RedlarskiArgs),
     /// Search parameters for RFD* on made-up maps, and check them on the paper's nine
@@ -63,6 +66,22 @@ struct CabcArgs {
     /// How many rows are run at a time; only times depend on it
     #[arg(long, value_name = "N", default_value = "1")]
     threads: NonZeroUsize,
+    #[command(flatten)]
+    output: Output,
+}
+
+#[derive(clap::Args)]
+#[command(after_help = "\
+Examples:
+  pf paper wang --only three-discs
+  pf paper wang --runs 30 --report report")]
+struct WangArgs {
+    /// Runs of each planner
+    #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..))]
+    runs: u32,
+    /// Only the problems whose name contains this
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
     #[command(flatten)]
     output: Output,
 }
@@ -125,6 +144,7 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
         Paper::Kim(args) => act_kim(args, cancel),
         Paper::Faustino(args) => act_faustino(args, cancel),
         Paper::Cabc(args) => act_cabc(args, cancel),
+        Paper::Wang(args) => act_wang(args, cancel),
         Paper::Redlarski(args) => act_redlarski(args, cancel),
         Paper::RedlarskiTune(args) => act_tune(args, cancel),
     };
@@ -198,6 +218,22 @@ fn act_cabc(args: &CabcArgs, cancel: &CancelToken) -> Result<(), Stopped> {
     bar.finish_and_clear();
     let title = "Bees that walk an unknown map";
     args.output.put(title, &rows?, cabc::figures)
+}
+
+fn act_wang(args: &WangArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    let options = wang::Options {
+        runs: args.runs,
+        only: args.only.clone(),
+        cancel: cancel.clone(),
+    };
+    let bar = bar();
+    let rows = wang::run(&options, &mut |done, all, what| {
+        tell(&bar, done, all, what);
+    });
+    bar.finish_and_clear();
+    let rows = rows?;
+    let title = "Fronts and teams";
+    args.output.put(title, &rows, || wang::figures(&rows))
 }
 
 impl Output {

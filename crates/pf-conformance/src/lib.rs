@@ -2,6 +2,7 @@
 
 pub mod grid;
 pub mod rogues;
+pub mod team;
 pub mod world;
 
 mod answer;

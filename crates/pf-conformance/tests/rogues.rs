@@ -4,7 +4,8 @@ use pf_conformance::{
     Options, Verdict, examine_replanner,
     grid::Grids,
     laws,
-    rogues::{Honest, WorldHonest, rogues, world_rogues},
+    rogues::{Honest, TeamHonest, WorldHonest, rogues, team_rogues, world_rogues},
+    team::Teams,
     world::Worlds,
 };
 
@@ -40,6 +41,21 @@ fn each_rogue_for_worlds_breaks_exactly_its_law() {
         .filter_map(|rogue| wrong(rogue.law, rogue.sin, &rogue.examine()))
         .collect();
     assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+}
+
+#[test]
+fn each_rogue_for_teams_breaks_exactly_its_law() {
+    let all = team_rogues().into_iter();
+    let wrong: Vec<_> = all
+        .filter_map(|rogue| wrong(rogue.law, rogue.sin, &rogue.examine()))
+        .collect();
+    assert!(wrong.is_empty(), "{}", wrong.join("\n\n"));
+    let options = Options {
+        cases: 20,
+        ..Options::default()
+    };
+    let verdicts = examine_replanner(&Teams, &options, &|| Box::new(TeamHonest));
+    assert_eq!(broken(&verdicts), [""; 0]);
 }
 
 #[test]

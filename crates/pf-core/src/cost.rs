@@ -49,7 +49,7 @@ impl<const N: usize> Cost for [f64; N] {
 /// let front: Front<[f64; 2]> = [[1.0, 9.0], [5.0, 9.0], [9.0, 1.0]].into_iter().collect();
 /// assert_eq!(front.members(), [[1.0, 9.0], [9.0, 1.0]]);
 /// ```
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Front<T>(Vec<T>);
 
 impl<T> Default for Front<T> {

@@ -231,4 +231,58 @@ pub enum Violation {
         /// Which move, from 0.
         at: usize,
     },
+    /// It is faster than it can be, or goes back in time.
+    #[error("move {at} is not possible in its time")]
+    TooFast {
+        /// Which move, from 0.
+        at: usize,
+    },
+    /// Of what there must be one for each, there are more or fewer.
+    #[error("has {found} {what}, not {expected}")]
+    WrongNumber {
+        /// Of what.
+        what: &'static str,
+        /// How many there are.
+        found: usize,
+        /// How many there must be.
+        expected: usize,
+    },
+    /// Two robots are in one place at one time.
+    #[error("robots {first} and {second} collide")]
+    Meeting {
+        /// One robot, from 0.
+        first: usize,
+        /// The other.
+        second: usize,
+    },
+    /// A member of a front is worse than another.
+    #[error("member {member} is dominated by member {by}")]
+    Dominated {
+        /// Which, from 0.
+        member: usize,
+        /// By which.
+        by: usize,
+    },
+    /// A part breaks a rule.
+    #[error("{part} {number}: {violation}")]
+    Part {
+        /// What it is part of: `"robot"`, `"member"`.
+        part: &'static str,
+        /// Which, from 0.
+        number: usize,
+        /// The rule.
+        violation: Box<Violation>,
+    },
+}
+
+impl Violation {
+    /// The same, of a part.
+    #[must_use]
+    pub fn of(self, part: &'static str, number: usize) -> Self {
+        Self::Part {
+            part,
+            number,
+            violation: Box::new(self),
+        }
+    }
 }

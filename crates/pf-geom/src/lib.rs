@@ -23,6 +23,9 @@
 //! assert_eq!(problem.judge(&vec![start, goal]), Ok(8.0));
 //! ```
 //!
+//! A [`TeamProblem`] asks for timed paths of several robots that do not collide, and for the choices
+//! there are between short, safe and smooth ones; collisions in time are exact as well.
+//!
 //! [`TangentGraph`] finds the shortest path there is; `pf-classic` makes a planner of it.
 
 mod clip;
@@ -33,6 +36,7 @@ mod raster;
 mod segment;
 mod sensor;
 mod shape;
+mod team;
 mod visibility;
 mod world;
 
@@ -42,6 +46,10 @@ pub use raster::Raster;
 pub use segment::{Segment, cross, point_to_box};
 pub use sensor::{Observation, Window};
 pub use shape::{Circle, Polygon, Rectangle, Shape, TOUCH};
+pub use team::{
+    DANGER, DeadEnd, LENGTH, Mark, Meeting, Objectives, Robot, TURNING, TeamChange, TeamPlan,
+    TeamProblem, TimedPath, TimedPoint, Timing, closest_approach,
+};
 pub use visibility::{Answer, Bend, Route, TangentGraph};
 pub use world::{ShapeId, World};
 

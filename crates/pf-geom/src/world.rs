@@ -116,13 +116,23 @@ impl World {
 
     /// Refuses a point that is not finite or lies outside the bounds.
     pub(crate) fn check_point(&self, what: &'static str, p: Point) -> Result<(), InvalidProblem> {
-        check_finite(what, p)?;
-        if self.bounds.contains(p) {
+        self.check_place(what, p)
+    }
+
+    /// The same for what has a name of its own.
+    pub(crate) fn check_place(
+        &self,
+        what: impl Into<std::borrow::Cow<'static, str>>,
+        p: Point,
+    ) -> Result<(), InvalidProblem> {
+        let what = what.into();
+        if p.coords.iter().all(|v| v.is_finite()) && self.bounds.contains(p) {
             return Ok(());
         }
+        check_finite(what.clone(), p)?;
         let (min, max) = (self.bounds.min(), self.bounds.max());
         Err(InvalidProblem::OutOfBounds {
-            what: what.into(),
+            what,
             place: format!("({}, {})", p.x, p.y),
             world: format!("({}, {}) to ({}, {})", min.x, min.y, max.x, max.y),
         })

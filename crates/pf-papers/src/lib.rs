@@ -13,6 +13,7 @@ mod plot;
 pub mod redlarski;
 pub mod row;
 pub mod statistics;
+pub mod wang;
 
 /// Why an experiment could not be run or reported.
 #[derive(Debug, thiserror::Error)]

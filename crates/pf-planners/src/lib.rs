@@ -3,13 +3,15 @@
 //! There is no enum of planners and none of problems. A planner is an [`Entry`] in the list of its
 //! problem; a problem joins by [`FromScene`], which says how it is read out of a [`Scene`] and how
 //! its answers are drawn. Whoever knows the problem takes the typed entries ([`grid_planners`],
-//! [`world_planners`]); the program takes [`all`], whose [`Runner`]s hide it.
+//! [`world_planners`],
+//! [`team_planners`]); the program takes [`all`], whose [`Runner`]s hide it.
 //!
 //! Any planner answers any scene. For a planner on grids a world is cut into cells, on the safe
 //! side ([`WorldScene::cell`] says how large); for a planner in worlds the blocked cells of a grid
 //! become rectangles, with the robot's size in cells. Its path is joined to the exact start and goal
 //! and marked in the scene that was asked about; what was proved of the converted one is not claimed
-//! of that.
+//! of that. For a planner for teams the robot is a team of one, and the shortest plan of its front is
+//! the answer.
 //!
 //! ```
 //! use pf_grid::{Cell, Grid};
@@ -38,12 +40,13 @@ mod list;
 mod posed;
 mod runner;
 mod scene;
+mod team;
 mod world;
 mod world_scene;
 
 pub use entry::{AnyEntry, Entry, Settings, UnknownPlanner};
 pub use grid_scene::GridScene;
-pub use list::{all, find, grid_planners, world_planners};
+pub use list::{all, find, grid_planners, team_planners, world_planners};
 pub use posed::{Conversion, Found, FromScene, Line, Posed};
 pub use runner::{Answer, Order, Refusal, Runner};
 pub use scene::{Changes, Robot, Scene};

@@ -7,9 +7,13 @@ use pf_classic::{
     AStar, AStarParams, Auto, AutoParams, DStarLite, DStarLiteParams, Dijkstra, DijkstraParams,
     Jps, JpsParams, Prepared, PreparedParams, VisibilityGraph, VisibilityGraphParams,
 };
-use pf_geom::WorldProblem;
+use pf_geom::{TeamProblem, WorldProblem};
 use pf_grid::GridProblem;
 use pf_lbfgs::{Lbfgs, LbfgsParams};
+use pf_moabc::{
+    Moabc, MoabcParams, Moead, MoeadParams, Nsga2, Nsga2Params, Prioritised, PrioritisedParams,
+    RandomSearch, RandomSearchParams,
+};
 use pf_pso::{Pso, PsoParams};
 use pf_rfd::{
     Rfd, RfdExact, RfdExactParams, RfdField, RfdFieldParams, RfdParams, RfdStar, RfdStarParams,
@@ -37,6 +41,14 @@ static WORLD: &[Entry<WorldProblem>] = &[
     entry!(replans "abc", Abc, AbcParams, "Dynamic pathfinding for uncrewed vehicles by a constrained artificial bee colony; after Korf 1990"),
 ];
 
+static TEAM: &[Entry<TeamProblem>] = &[
+    entry!(replans "moabc", Moabc, MoabcParams, "A Novel Multi-objective Artificial Bee Colony Algorithm for Multi-robot Path Planning"),
+    entry!(replans "nsga2", Nsga2, Nsga2Params, "Deb, Pratap, Agarwal, Meyarivan 2002"),
+    entry!(replans "moead", Moead, MoeadParams, "Zhang, Li 2007; Li, Zhang 2009"),
+    entry!(replans "random-search", RandomSearch, RandomSearchParams, "what any of them must beat"),
+    entry!(plans "prioritised", Prioritised, PrioritisedParams, "Erdmann, Lozano-Perez 1987; Phillips, Likhachev 2011"),
+];
+
 /// The planners on grids, each as a replanner; those that only plan start over
 /// ([`FromScratch`](pf_core::FromScratch)).
 pub fn grid_planners() -> impl Iterator<Item = &'static Entry<GridProblem>> {
@@ -48,10 +60,17 @@ pub fn world_planners() -> impl Iterator<Item = &'static Entry<WorldProblem>> {
     WORLD.iter()
 }
 
+/// The planners for teams of robots, each as a replanner.
+pub fn team_planners() -> impl Iterator<Item = &'static Entry<TeamProblem>> {
+    TEAM.iter()
+}
+
 /// All planners, whatever their problem.
 pub fn all() -> impl Iterator<Item = &'static dyn AnyEntry> {
     let grid = grid_planners().map(|entry| entry as &dyn AnyEntry);
-    grid.chain(world_planners().map(|entry| entry as &dyn AnyEntry))
+    let world = world_planners().map(|entry| entry as &dyn AnyEntry);
+    let team = team_planners().map(|entry| entry as &dyn AnyEntry);
+    grid.chain(world).chain(team)
 }
 
 /// The planner called `key`.

@@ -39,8 +39,10 @@ mod picture;
 mod png;
 mod recorder;
 mod svg;
+mod team;
 mod world;
 
 pub use picture::{Line, Picture};
 pub use png::{NoPicture, png_of};
 pub use recorder::Recorder;
+pub use team::TeamSheet;

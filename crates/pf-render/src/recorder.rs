@@ -1,5 +1,5 @@
 use pf_core::{Event, Trace};
-use pf_geom::{Point, WorldProblem};
+use pf_geom::{Point, TeamProblem, WorldProblem};
 use pf_grid::{Cell, GridProblem};
 
 /// Listens to a search and keeps what a picture can show of it.
@@ -67,6 +67,16 @@ impl Trace<WorldProblem> for Recorder {
                 at: [a, b],
             } => self.pieces.push([pair(a), pair(b)]),
             _ => {}
+        }
+    }
+}
+
+/// Where robots of the population are, the last that was shown.
+impl Trace<TeamProblem> for Recorder {
+    fn event(&mut self, event: &Event<'_, TeamProblem>) {
+        if let Event::Points { at, .. } = event {
+            self.reached.clear();
+            self.reached.extend(at.iter().flatten().map(|p| [p.x, p.y]));
         }
     }
 }

@@ -2,14 +2,16 @@
 //!
 //! Each is [`Honest`] but for one sin. The test of this crate shows that the kit finds exactly that
 //! sin in it, and none in the honest one. The laws are the same for all problems; [`world_rogues`]
-//! have the sins that grids do not know.
+//! have the sins that grids do not know, [`team_rogues`] those of several robots.
 
 mod honest;
 mod planners;
 mod replanners;
+mod teams;
 mod worlds;
 
 pub use honest::Honest;
+pub use teams::{TeamHonest, TeamRogue, team_rogues};
 pub use worlds::{WorldHonest, WorldRogue, world_rogues};
 
 use crate::{Options, Verdict, examine, examine_replanner, grid::Grids};

@@ -6,7 +6,7 @@ mod cases;
 mod generate;
 mod oracle;
 mod roadmap;
-mod shapes;
+pub(crate) mod shapes;
 mod strategies;
 mod suite;
 mod tight;

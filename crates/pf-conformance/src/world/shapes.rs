@@ -5,17 +5,17 @@ use pf_geom::{Circle, Point, Polygon, Rectangle, Shape, Vector};
 use rand::RngExt;
 use std::f64::consts::{PI, TAU};
 
-pub(super) fn pick<'a, T>(rng: &mut PlanRng, from: &'a [T]) -> &'a T {
+pub(crate) fn pick<'a, T>(rng: &mut PlanRng, from: &'a [T]) -> &'a T {
     &from[rng.random_range(0..from.len())]
 }
 
-pub(super) fn circle(x: f64, y: f64, radius: f64) -> Shape {
+pub(crate) fn circle(x: f64, y: f64, radius: f64) -> Shape {
     Circle::new(Point::new(x, y), radius)
         .expect("a circle of some size")
         .into()
 }
 
-pub(super) fn rectangle(min: Point, max: Point) -> Shape {
+pub(crate) fn rectangle(min: Point, max: Point) -> Shape {
     Rectangle::new(min, max)
         .expect("a rectangle of some size")
         .into()
@@ -26,7 +26,7 @@ pub(super) fn polygon(corners: Vec<Point>) -> Shape {
 }
 
 /// Anything that fits into a disc.
-pub(super) fn shape(rng: &mut PlanRng, middle: Point, size: f64) -> Shape {
+pub(crate) fn shape(rng: &mut PlanRng, middle: Point, size: f64) -> Shape {
     let turn = rng.random_range(0.0..TAU);
     match rng.random_range(0..10) {
         0..3 => circle(middle.x, middle.y, size),
