@@ -21,6 +21,8 @@ use std::{num::NonZeroUsize, ops::Range, path::PathBuf};
 
 /// Seeds from here on chose nobody.
 const FRESH: u32 = 1_000_000;
+/// Walked by one thread at a time.
+const PIECE: u32 = 10;
 /// What share of the points goes on after a leg of the race, and by how many times more each has
 /// run then.
 const THIRD: usize = 3;
@@ -148,9 +150,25 @@ impl Search {
         let brute = (best, scores[best], total(&everything));
 
         let race = self.race(&points, &mut books, tell)?;
-        let fresh = FRESH..FRESH + self.fresh;
-        let jobs = [(brute.0, fresh.clone()), (race.0, fresh)];
-        let again = self.evaluate(&points, &jobs, &mut books, "fresh seeds", tell)?;
+        // In pieces, so that there is work for every thread.
+        let ends = FRESH + self.fresh;
+        let pieces = (FRESH..ends).step_by(PIECE as usize);
+        let pieces: Vec<_> = pieces.map(|from| from..ends.min(from + PIECE)).collect();
+        let mut winners = vec![brute.0, race.0];
+        winners.dedup();
+        let jobs = winners
+            .iter()
+            .flat_map(|&k| pieces.iter().map(move |seeds| (k, seeds.clone())));
+        let jobs: Vec<Job> = jobs.collect();
+        let scores = self.evaluate(&points, &jobs, &mut books, "fresh seeds", tell)?;
+        let sum = |k: usize| {
+            let of_k = jobs
+                .iter()
+                .zip(&scores)
+                .filter(|((point, _), _)| *point == k);
+            of_k.fold(Score::default(), |sum, (_, piece)| sum.and(*piece))
+        };
+        let again = [sum(brute.0), sum(race.0)];
         let chosen = |method, (k, score, runs): (usize, Score, u32), fresh: Score| Chosen {
             method,
             runs,
@@ -212,11 +230,10 @@ impl Search {
         what: &str,
         tell: &mut dyn FnMut(u64, u64, &str),
     ) -> Result<Vec<Score>, PaperError> {
-        let mut open: Vec<&Job> = jobs
+        let open: Vec<&Job> = jobs
             .iter()
             .filter(|job| books.score(job).is_none())
             .collect();
-        open.dedup();
         let all: u64 = jobs.iter().map(|(_, seeds)| seeds.len() as u64).sum();
         let left: u64 = open.iter().map(|(_, seeds)| seeds.len() as u64).sum();
         let mut done = all - left;
