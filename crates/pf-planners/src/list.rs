@@ -22,10 +22,10 @@ use pf_rfd::{
 static GRID: &[Entry<GridProblem>] = &[
     entry!(plans "dijkstra", Dijkstra, DijkstraParams, "Dijkstra 1959"),
     entry!(plans "astar", AStar, AStarParams, "Hart, Nilsson, Raphael 1968"),
+    entry!(replans "d-star-lite", DStarLite, DStarLiteParams, "Koenig, Likhachev 2002"),
     entry!(replans "jps", Jps, JpsParams, "Harabor, Grastien 2011, 2014"),
     entry!(replans "prepared", Prepared, PreparedParams, "Harabor, Grastien 2014 (JPS+)"),
     entry!(replans "auto", Auto, AutoParams, "A* or JPS, by a survey of the map"),
-    entry!(replans "d-star-lite", DStarLite, DStarLiteParams, "Koenig, Likhachev 2002"),
     entry!(replans "rfd", Rfd, RfdParams, "Rabanal, Rodriguez, Rubio 2007; Redlarski, Dabkowski, Palkowski"),
     entry!(replans "rfd-star", RfdStar, RfdStarParams, "Redlarski, Dabkowski, Palkowski"),
     entry!(replans "rfd-exact", RfdExact, RfdExactParams, "after Korf 1990; Koenig, Likhachev 2006"),

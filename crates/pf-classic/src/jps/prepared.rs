@@ -7,8 +7,8 @@ use super::{
 };
 use crate::Auto;
 use pf_core::{
-    Claims, Context, InvalidParams, Outcome, Planner, Replanner, Report, Revision, Unsupported,
-    params,
+    Claims, Context, InvalidParams, Outcome, Planner, Problem, Replanner, Report, Revision, Stamp,
+    Unsupported, params,
 };
 use pf_grid::GridProblem;
 
@@ -48,6 +48,8 @@ pub struct Prepared {
     table: JumpTable,
     search: ExactJumps,
     auto: Auto,
+    /// Of the problem that was answered last.
+    known: Option<Stamp>,
 }
 
 impl Prepared {
@@ -94,6 +96,7 @@ impl Planner<GridProblem> for Prepared {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
+        self.known = Some(problem.stamp());
         if !self.prepare(problem) {
             return self.auto.plan(problem, cx);
         }
@@ -118,12 +121,14 @@ impl Replanner<GridProblem> for Prepared {
         if self.table.is_of(problem.grid(), problem.moves()) {
             return self.plan(problem, cx);
         }
+        self.known = Some(problem.stamp());
         self.auto.replan(revision, cx)
     }
 
     /// Makes the table anew if the map changed: in the time of a hundred searches or so.
     fn settle(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
-        if cx.proceed() {
+        let stale = !self.table.is_of(problem.grid(), problem.moves());
+        if stale && self.known == Some(problem.stamp()) && cx.proceed() {
             self.prepare(problem);
         }
     }

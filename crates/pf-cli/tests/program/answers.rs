@@ -265,9 +265,12 @@ fn planners_are_listed() {
         .collect();
     assert!(names.starts_with(&["dijkstra", "astar", "d-star-lite"]));
     for object in &objects {
-        let in_worlds =
-            ["visibility-graph", "pso", "lbfgs", "abc"].contains(&object["name"].as_str().unwrap());
-        assert_eq!(object["problem"], if in_worlds { "world" } else { "grid" });
+        let kind = match object["name"].as_str().unwrap() {
+            "visibility-graph" | "pso" | "lbfgs" | "abc" => "world",
+            "moabc" | "nsga2" | "moead" | "random-search" | "prioritised" => "team",
+            _ => "grid",
+        };
+        assert_eq!(object["problem"], kind);
         assert!(object["claims"].is_array() && object["paper"].is_string());
     }
     let text = pf(&["planners"]).ends(0).out;
