@@ -6,11 +6,12 @@ use pf_core::{
     Claims, Context, Outcome, Planner, Problem, Replanner, Report, Revision, Unsupported,
 };
 use pf_grid::{Arrival, Cell, Drive, Grid, GridCost, GridProblem, Moves};
+use pf_rfd::RfdField;
 
-/// D* Lite, with an A* that answers the same afresh.
+/// A planner that repairs, with an A* that answers the same afresh.
 #[derive(Default)]
-struct Checked {
-    repairs: DStarLite,
+struct Checked<T> {
+    repairs: T,
     afresh: AStar,
     answers: u32,
 }
@@ -23,7 +24,7 @@ fn cost(report: &Report<GridProblem>) -> Option<GridCost> {
     }
 }
 
-impl Checked {
+impl<T> Checked<T> {
     fn compare(&mut self, problem: &GridProblem, report: &Report<GridProblem>) {
         let afresh = self.afresh.plan(problem, &mut Context::seeded(0)).unwrap();
         assert_eq!(cost(report), cost(&afresh), "{}", problem.grid());
@@ -31,7 +32,7 @@ impl Checked {
     }
 }
 
-impl Planner<GridProblem> for Checked {
+impl<T: Replanner<GridProblem>> Planner<GridProblem> for Checked<T> {
     fn name(&self) -> &'static str {
         "checked"
     }
@@ -51,7 +52,7 @@ impl Planner<GridProblem> for Checked {
     }
 }
 
-impl Replanner<GridProblem> for Checked {
+impl<T: Replanner<GridProblem>> Replanner<GridProblem> for Checked<T> {
     fn replan(
         &mut self,
         revision: &Revision<'_, GridProblem>,
@@ -87,6 +88,15 @@ fn field(side: u32, seed: u32, blocked: u32, terrain: bool) -> Grid {
 
 #[test]
 fn repaired_and_fresh_plans_cost_the_same_at_every_discovery() {
+    drive_them_all::<DStarLite>();
+}
+
+#[test]
+fn read_off_and_fresh_plans_cost_the_same_at_every_discovery() {
+    drive_them_all::<RfdField>();
+}
+
+fn drive_them_all<T: Replanner<GridProblem> + Default>() {
     let (mut arrived, mut closed, mut answers) = (0, 0, 0);
     for seed in 0..60 {
         let (blocked, terrain) = (2 + seed % 3, seed % 4 == 3);
@@ -95,7 +105,7 @@ fn repaired_and_fresh_plans_cost_the_same_at_every_discovery() {
         let problem = GridProblem::new(grid, Cell::new(0, 0), Cell::new(23, 23));
         let problem = problem.unwrap().with_moves(moves);
         let mut drive = Drive::new(&problem, f64::from(seed % 5)).unwrap();
-        let mut planner = Checked::default();
+        let mut planner = Checked::<T>::default();
         let travel = drive.run(&mut planner, || Context::seeded(0)).unwrap();
         answers += planner.answers;
         assert_eq!(planner.answers as usize, 1 + travel.latencies.len());
@@ -130,7 +140,7 @@ fn who_knows_all_from_the_start_drives_the_shortest_way() {
     let problem = GridProblem::new(grid, Cell::new(0, 0), Cell::new(23, 23)).unwrap();
     let mut drive = Drive::new(&problem, 40.0).unwrap();
     let travel = drive
-        .run(&mut Checked::default(), || Context::seeded(0))
+        .run(&mut Checked::<DStarLite>::default(), || Context::seeded(0))
         .unwrap();
     assert_eq!(
         (travel.arrival, travel.latencies.len()),

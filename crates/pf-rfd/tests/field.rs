@@ -242,3 +242,30 @@ fn it_takes_less_than_24_bytes_a_cell() {
         assert!(planner.bytes() < 24 * 400 * 400, "{}", planner.bytes());
     }
 }
+
+/// Paths too long for 32 bits to order: every other row is a wall with a gap at alternate ends.
+#[test]
+fn long_paths_are_exact() {
+    let side = 320;
+    let grid = Grid::new(side, side, |cell| {
+        let gap = if cell.y % 4 == 1 { side - 1 } else { 0 };
+        u8::from(cell.y % 2 == 0 || cell.x == gap)
+    });
+    let last = Cell::new(side - 1, side - 2);
+    let mut problem = GridProblem::new(grid.unwrap(), Cell::new(0, 0), last).unwrap();
+    let mut planner = RfdField::default();
+    let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    assert_eq!(proven(&problem, &report), oracle(&problem));
+    for changes in [
+        GridChange::Freed(vec![Cell::new(160, 1)]),
+        GridChange::Blocked(vec![Cell::new(160, 1)]),
+        GridChange::CostChanged((0..300).map(|x| Cell::new(x, 160)).collect(), 200),
+        GridChange::Blocked(vec![Cell::new(7, 300)]),
+    ] {
+        planner.settle(&problem, &mut Context::seeded(0));
+        let changes = [changes];
+        let revision = problem.revise(&changes).unwrap();
+        let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+        assert_eq!(proven(&problem, &report), oracle(&problem));
+    }
+}

@@ -95,14 +95,14 @@ fn altitudes<T: Replanner<GridProblem>>(
         let altitude = |cell: Cell| altitude(planner, cell);
         panels.push(heat(problem, &shortest(problem), &altitude, title));
     };
-    let planned = planner.plan(&problem, &mut Context::seeded(0));
-    planned.map_err(|error| broken(error.to_string()))?;
+    let report = planner.plan(&problem, &mut Context::seeded(0));
+    report.map_err(|error| broken(error.to_string()))?;
     planner.settle(&problem, &mut Context::seeded(0));
     panel(&planner, &problem, "after the plan");
     let revision = problem.revise(&story.then[1].0);
     let revision = revision.map_err(|error| broken(error.to_string()))?;
-    let replanned = planner.replan(&revision, &mut Context::seeded(0));
-    replanned.map_err(|error| broken(error.to_string()))?;
+    let report = planner.replan(&revision, &mut Context::seeded(0));
+    report.map_err(|error| broken(error.to_string()))?;
     planner.settle(revision.problem(), &mut Context::seeded(0));
     panel(
         &planner,

@@ -1,0 +1,125 @@
+//! Ways down a field, and the steps they are made of.
+
+use crate::{Grid, GridProblem, Layout, Moves, Weights, Word};
+
+/// See [`Distances::downhill`](crate::Distances::downhill).
+#[derive(Debug)]
+pub struct Downhill<'d, W> {
+    values: &'d [W],
+    steps: Steps<'d>,
+}
+
+impl<'d, W: Word> Downhill<'d, W> {
+    pub(crate) fn of(values: &'d [W], steps: Steps<'d>) -> Self {
+        Self { values, steps }
+    }
+
+    /// The next id on the way down from one, and the direction of the step: `ahead` if that leads
+    /// there, so that ways are straight, else the first in the order of
+    /// [`DIRECTIONS`](crate::DIRECTIONS).
+    #[inline]
+    #[must_use]
+    pub fn next(&self, id: u32, ahead: u32) -> Option<(u32, u32)> {
+        let left = self.values[id as usize];
+        let legal = self.steps.legal(id);
+        let leads = |k: u32| {
+            let next = id.wrapping_add_signed(self.steps.offsets[k as usize & 7]);
+            let rest = self.values[next as usize];
+            let weight: W = self.steps.weights.step(self.steps.grid, id, next, k);
+            (rest < left && rest + weight == left).then_some((next, k))
+        };
+        if u32::from(legal) >> ahead & 1 == 1
+            && let Some(on) = leads(ahead)
+        {
+            return Some(on);
+        }
+        let mut ways = legal;
+        while ways != 0 {
+            let k = ways.trailing_zeros();
+            ways &= ways - 1;
+            if let Some(on) = leads(k) {
+                return Some(on);
+            }
+        }
+        None
+    }
+
+    /// Goes down from an id and shows every id on the way, that one first. Returns the last: the
+    /// root, or where there is no way on.
+    #[inline]
+    pub fn go(&self, from: u32, mut show: impl FnMut(u32)) -> u32 {
+        show(from);
+        let Some((mut id, mut k)) = self.next(from, 0) else {
+            return from;
+        };
+        let steps = &self.steps;
+        let around = |id| steps.moves.legal(steps.grid.around_id(id));
+        loop {
+            // Ways are straight for the most part: on as long as that leads down.
+            let offset = steps.offsets[k as usize & 7];
+            let mut left = self.values[id as usize];
+            loop {
+                show(id);
+                let next = id.wrapping_add_signed(offset);
+                if u32::from(around(id)) >> k & 1 == 0 {
+                    break;
+                }
+                let rest = self.values[next as usize];
+                let weight: W = steps.weights.step(steps.grid, id, next, k);
+                if rest >= left || rest + weight != left {
+                    break;
+                }
+                (id, left) = (next, rest);
+            }
+            match self.next(id, k) {
+                Some(on) => (id, k) = on,
+                None => return id,
+            }
+        }
+    }
+}
+
+/// Steps on a map by the weights of distances made before.
+#[derive(Debug)]
+pub(crate) struct Steps<'p> {
+    grid: &'p Grid,
+    moves: Moves,
+    pub(crate) layout: Layout,
+    pub(crate) offsets: [i32; 8],
+    weights: Weights,
+}
+
+impl<'p> Steps<'p> {
+    pub(crate) fn of(problem: &'p GridProblem, weights: Weights) -> Self {
+        let grid = problem.grid();
+        let layout = *grid.layout();
+        Self {
+            grid,
+            moves: problem.moves(),
+            layout,
+            offsets: layout.offsets(),
+            weights,
+        }
+    }
+
+    /// The directions of the steps from an id: none if it is blocked.
+    #[inline]
+    fn legal(&self, id: u32) -> u8 {
+        if self.grid.is_free_id(id) {
+            self.moves.legal(self.grid.around_id(id))
+        } else {
+            0
+        }
+    }
+
+    /// The ids one step away, and what the step weighs.
+    #[inline]
+    pub(crate) fn from<W: Word>(&self, id: u32) -> impl Iterator<Item = (u32, W)> + '_ {
+        let legal = self.legal(id);
+        let steps = (0..8).filter(move |k| legal >> k & 1 == 1);
+        steps.map(move |k: u32| {
+            let next = id.wrapping_add_signed(self.offsets[k as usize]);
+            (next, self.weights.step(self.grid, id, next, k))
+        })
+    }
+}
