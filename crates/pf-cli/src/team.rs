@@ -14,6 +14,7 @@ use pf_planners::{Entry, UnknownPlanner, team_planners};
 use pf_render::{TeamSheet, png_of};
 use serde::Serialize;
 use std::{
+    fmt::Write as _,
     io::{Write, stdout},
     path::PathBuf,
 };
@@ -288,20 +289,18 @@ fn words(
         let costs = front.cost.members();
         let named = named(args, costs);
         let shown = spread(costs.len(), args.rows, &named);
-        text += &format!("{}\n", table(problem, front, &named, &shown));
+        // Writing to a string does not fail.
+        let _ = writeln!(text, "{}", table(problem, front, &named, &shown));
         if shown.len() < costs.len() {
-            text += &format!(
-                "{} of {} plans; --rows shows more\n",
-                shown.len(),
-                costs.len()
-            );
+            let (few, all) = (shown.len(), costs.len());
+            let _ = writeln!(text, "{few} of {all} plans; --rows shows more");
         }
         if let Some((name, place)) = named.first() {
-            text += &format!("preferred ({name}): plan {place}\n");
+            let _ = writeln!(text, "preferred ({name}): plan {place}");
         }
     }
     for note in &report.notes {
-        text += &format!("{note}\n");
+        let _ = writeln!(text, "{note}");
     }
     text
 }
@@ -336,8 +335,8 @@ fn table(
     }
     for &place in shown {
         let [length, danger, turning] = front.cost.members()[place];
-        let names = named.iter().filter(|(_, own)| *own == place);
-        let names: Vec<_> = names.map(|(name, _)| name.as_str()).collect();
+        let best_for = named.iter().filter(|(_, own)| *own == place);
+        let best_for: Vec<_> = best_for.map(|(name, _)| name.as_str()).collect();
         let clearance = problem.ease() - danger;
         let most = if danger <= 0.0 { ">= " } else { "" };
         table.add_row([
@@ -346,7 +345,7 @@ fn table(
             format!("{most}{clearance:.3}"),
             format!("{:.1} deg", turning.to_degrees()),
             format!("{:.1} s", front.solution.members()[place].duration()),
-            names.join(", "),
+            best_for.join(", "),
         ]);
     }
     table

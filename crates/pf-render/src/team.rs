@@ -234,13 +234,13 @@ impl Frame {
         let bounds = problem.world().bounds();
         let extent = bounds.max() - bounds.min();
         let scale = side / extent.x.max(extent.y);
-        let size = (extent.x * scale, extent.y * scale);
+        let drawn = (extent.x * scale, extent.y * scale);
         Self {
             min: bounds.min(),
             scale,
             left,
-            bottom: top + size.1,
-            size,
+            bottom: top + drawn.1,
+            size: drawn,
         }
     }
 
@@ -250,12 +250,12 @@ impl Frame {
     }
 
     fn world(&self, svg: &mut String, problem: &TeamProblem) {
-        let (w, h) = self.size;
+        let (width, height) = self.size;
         let _ = write!(
             svg,
-            r##"<rect x="{:.1}" y="{:.1}" width="{w:.1}" height="{h:.1}" fill="#fafafa" stroke="#999"/>"##,
+            r##"<rect x="{:.1}" y="{:.1}" width="{width:.1}" height="{height:.1}" fill="#fafafa" stroke="#999"/>"##,
             self.left,
-            self.bottom - h
+            self.bottom - height
         );
         for (_, shape) in problem.world().shapes() {
             match shape {

@@ -25,7 +25,7 @@ pub fn figures(rows: &[Row]) -> Result<Vec<Figure>, PaperError> {
     ] {
         for contender in contenders().into_iter().take(2) {
             let run = contender.run(&trial, LARGE, 0, &CancelToken::default())?;
-            figures.extend(members(number, &trial, contender.variant, run));
+            figures.extend(members(number, &trial, contender.variant, &run));
         }
     }
     figures.push(volumes(rows));
@@ -33,7 +33,12 @@ pub fn figures(rows: &[Row]) -> Result<Vec<Figure>, PaperError> {
 }
 
 /// A sheet for the shortest, the safest and the smoothest member of a front.
-fn members(number: &str, trial: &Trial, variant: &str, run: super::contenders::Run) -> Vec<Figure> {
+fn members(
+    number: &str,
+    trial: &Trial,
+    variant: &str,
+    run: &super::contenders::Run,
+) -> Vec<Figure> {
     let named = |first: Preference| -> Vec<(String, usize)> {
         let others = Preference::ALL.into_iter().filter(|other| *other != first);
         let all = [first].into_iter().chain(others);

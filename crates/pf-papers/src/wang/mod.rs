@@ -124,6 +124,15 @@ fn measured(case: &Case, fields: &[(Contender, Vec<Run>)]) -> Vec<Row> {
         })
         .collect();
     let corrected = holm(&p_values);
+    let rival = fields
+        .iter()
+        .find(|(contender, _)| contender.planner == "moead");
+    let rival = rival.map(|(_, runs)| volumes(runs)).unwrap_or_default();
+    // Of all beside MOEA/D, uncorrected.
+    let beside = |runs: &[Run]| {
+        let pairs = volumes(runs).into_iter().zip(&rival);
+        wilcoxon(&pairs.map(|(own, theirs)| own - theirs).collect::<Vec<_>>())
+    };
     let row = |(place, (contender, runs)): (usize, &(Contender, Vec<Run>))| {
         let of = |value: &dyn Fn(&Run) -> f64| Spread::of(runs.iter().map(value));
         let median = |value: &dyn Fn(&Run) -> f64| of(value).map(|spread| spread.median);
@@ -154,6 +163,7 @@ fn measured(case: &Case, fields: &[(Contender, Vec<Run>)]) -> Vec<Row> {
                 .with("hypervolume q3", volume.map(|v| v.q3))
                 .with("igd_plus", median(&|run| igd_plus(&scaled(run), &thinned)))
                 .with("p", place.checked_sub(1).map(|place| corrected[place]))
+                .with("p to moead", beside(runs))
                 .with("members", median(&|run| count(run.front.len())))
                 .with(
                     "length/optimum",

@@ -21,7 +21,7 @@ pub fn wilcoxon(differences: &[f64]) -> f64 {
     for equal in sizes.chunk_by(|a, b| a.abs().total_cmp(&b.abs()).is_eq()) {
         #[expect(clippy::cast_precision_loss, reason = "a number of runs")]
         let count = equal.len() as f64;
-        let mean = rank + (count + 1.0) / 2.0;
+        let mean = rank + f64::midpoint(count, 1.0);
         positive += mean
             * equal
                 .iter()
