@@ -339,14 +339,14 @@ mod tests {
                     ];
                     problem.apply(&changes).unwrap();
                     let layout = *problem.grid().layout();
-                    let changed = changes.iter().flat_map(|change| match change {
+                    let touched = changes.iter().flat_map(|change| match change {
                         GridChange::Blocked(cells)
                         | GridChange::Freed(cells)
                         | GridChange::CostChanged(cells, _) => cells.clone(),
                         _ => Vec::new(),
                     });
-                    let changed: Vec<_> = changed.map(|cell| layout.id(cell)).collect();
-                    let end = kept.repair(&problem, &changed, u64::MAX, &mut sweeper, cx);
+                    let ids: Vec<_> = touched.map(|cell| layout.id(cell)).collect();
+                    let end = kept.repair(&problem, &ids, u64::MAX, &mut sweeper, cx);
                     if end == Swept::GaveUp {
                         kept.sweep(&problem, root, &mut sweeper, cx);
                     }

@@ -28,9 +28,12 @@ fn mosaic(rng: &mut PlanRng, size: u32, dearest: u8) -> Grid {
     let tile = (size / 10).max(1);
     let seed: Vec<bool> = (0..400).map(|_| rng.random_bool(0.3)).collect();
     let at = |cell: Cell| seed[((cell.y / tile % 20) * 20 + cell.x / tile % 20) as usize];
-    Grid::new(size, size, |cell| match at(cell) {
-        true => 0,
-        false => rng.random_range(1..=dearest),
+    Grid::new(size, size, |cell| {
+        if at(cell) {
+            0
+        } else {
+            rng.random_range(1..=dearest)
+        }
     })
     .unwrap()
 }
@@ -44,9 +47,10 @@ fn alley(rng: &mut PlanRng, size: u32, dearest: u8) -> Grid {
             0 => cell.y,
             _ => size - 1 - cell.y,
         };
-        match cell.x % apart == apart - 1 && along >= gap {
-            true => 0,
-            false => rng.random_range(1..=dearest),
+        if cell.x % apart == apart - 1 && along >= gap {
+            0
+        } else {
+            rng.random_range(1..=dearest)
         }
     })
     .unwrap()

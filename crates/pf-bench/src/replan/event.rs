@@ -281,11 +281,10 @@ mod tests {
                 changed.filter(|&c| problem.grid().is_free(c) != before.grid().is_free(c));
             let changed: Vec<Cell> = changed.collect();
             let (few, most) = match class {
-                Class::NearTen => (10, 10),
+                Class::NearTen | Class::Blocked | Class::Freed => (10, 10),
                 Class::NearPercent | Class::AnywherePercent => (60, 60),
                 Class::Block => (20, 49),
                 Class::GoalMoved | Class::RobotMoved => (0, 0),
-                Class::Blocked | Class::Freed => (10, 10),
                 Class::Longer => (1, 49),
             };
             assert!((few..=most).contains(&changed.len()), "{}", class.name());
