@@ -8,6 +8,7 @@ pub mod world;
 mod answer;
 mod exam;
 mod law;
+mod log;
 mod run;
 mod stage;
 mod suite;

@@ -1,5 +1,6 @@
 //! One call of a planner, watched.
 
+use crate::log::Log;
 use pf_core::{
     Budget, CancelToken, Clock, Context, Event, Outcome, Problem, Report, Solved, Unsupported,
 };
@@ -17,7 +18,7 @@ pub(crate) struct Run<P: Problem> {
     /// What it announced, in this order.
     pub(crate) improved: Vec<Solved<P>>,
     /// Every event, one a line.
-    pub(crate) trace: String,
+    pub(crate) trace: Log,
     /// How many states and candidates it looked at, as far as it said so.
     pub(crate) looks: u64,
 }
@@ -118,7 +119,7 @@ fn message(panic: &(dyn std::any::Any + Send)) -> String {
 
 struct Recorder<P: Problem> {
     improved: Vec<Solved<P>>,
-    trace: String,
+    trace: Log,
     looks: u64,
     /// A few of the states seen, at which fields are read.
     samples: Vec<P::State>,
@@ -128,7 +129,7 @@ impl<P: Problem> Recorder<P> {
     fn new() -> Self {
         Self {
             improved: vec![],
-            trace: String::new(),
+            trace: Log::default(),
             looks: 0,
             samples: vec![],
         }
@@ -146,14 +147,14 @@ impl<P: Problem> Recorder<P> {
             Event::Improved(best) => self.improved.push((*best).clone()),
             _ => {}
         }
-        // Writing to a string does not fail.
+        // Writing to a log does not fail.
         let _ = write!(self.trace, "{event:?}");
         if let Event::Field { value, .. } = event {
             for state in &self.samples {
                 let _ = write!(self.trace, " {:?}", value(state));
             }
         }
-        self.trace.push('\n');
+        let _ = self.trace.write_char('\n');
     }
 }
 

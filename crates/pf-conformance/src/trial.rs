@@ -299,13 +299,7 @@ pub(crate) fn silent<P: Problem>(trial: &Trial<'_, P>) -> Finding {
 pub(crate) fn same<P: Problem>(one: &Run<P>, two: &Run<P>) -> Finding {
     let (a, b) = (one.fingerprint(), two.fingerprint());
     ensure(a == b, || part("first", &a, "then", &b))?;
-    let mut events = one.trace.lines().zip(two.trace.lines()).zip(1..);
-    ensure(one.trace == two.trace, || {
-        match events.find(|((a, b), _)| a != b) {
-            Some(((a, b), n)) => format!("the traces part at event {n}: first {a}, then {b}"),
-            None => "one trace goes on where the other ends".into(),
-        }
-    })
+    one.trace.parts_from(&two.trace).map_or(Ok(()), Err)
 }
 
 /// Two texts that differ, shortened to where they do.
