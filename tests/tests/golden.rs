@@ -2,7 +2,7 @@
 
 use pf_abc::{Abc, AbcParams};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
-use pf_classic::{AStar, DStarLite, Dijkstra};
+use pf_classic::{AStar, DStarLite, Dijkstra, Jps, Prepared};
 use pf_core::{Context, Event, Planner, Problem, Replanner, Report};
 use pf_geom::{Point, Rectangle, World, WorldProblem};
 use pf_grid::{Cell, Grid, GridChange, GridProblem, Moves};
@@ -80,6 +80,27 @@ fn golden_trace_of_dijkstra() {
         "dijkstra",
         &trace(&mut Dijkstra::default(), Moves::default()),
     );
+}
+
+/// The same room without the swamp: jump points need cells that all cost the same.
+fn trace_without_swamp(planner: &mut dyn Planner<GridProblem>, moves: Moves) -> String {
+    let map = MAP.replace('2', ".");
+    let grid = Grid::parse(&map).expect("a map");
+    let problem = GridProblem::new(grid, Cell::new(0, 3), Cell::new(11, 3));
+    let problem = problem.expect("cells of the map").with_moves(moves);
+    let head = format!("{}, {moves}\n{}\n\n", planner.name(), map.trim_end());
+    let plan = |cx: &mut Context<'_, _>| planner.plan(&problem, cx).expect("supported");
+    head + &events(plan).expect("a string takes text")
+}
+
+#[test]
+fn golden_traces_of_jump_points() {
+    for moves in [Moves::default(), Moves::Always] {
+        let name = format!("jps-{}", moves.to_string().replace(' ', "-"));
+        golden::check(&name, &trace_without_swamp(&mut Jps::default(), moves));
+        let name = name.replace("jps", "jps-plus");
+        golden::check(&name, &trace_without_swamp(&mut Prepared::default(), moves));
+    }
 }
 
 #[test]

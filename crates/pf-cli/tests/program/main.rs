@@ -13,6 +13,7 @@ mod malformed_worlds;
 mod papers;
 mod replans;
 mod scens;
+mod teams;
 mod walks;
 mod worlds;
 mod worlds_in_time;
