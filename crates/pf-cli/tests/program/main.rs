@@ -4,6 +4,7 @@ mod answers;
 mod conversions;
 mod demo;
 mod drives;
+mod externals;
 mod faults;
 mod interrupts;
 #[path = "../../../pf-io/tests/inputs/malformed.rs"]

@@ -12,8 +12,8 @@ fn team(args: &[&str], code: i32) -> Value {
 
 /// Where a robot is at a time, by its printed path.
 fn at(path: &Value, time: f64) -> (f64, f64) {
-    let point = |p: &Value| [0, 1, 2].map(|k| p[k].as_f64().unwrap());
-    let points: Vec<_> = path.as_array().unwrap().iter().map(point).collect();
+    let point = |p: &Value| [0, 1, 2].map(|k| p[k].as_f64().expect("a number"));
+    let points: Vec<_> = path.as_array().expect("points").iter().map(point).collect();
     let last = points[points.len() - 1];
     let leg = points.windows(2).find(|leg| time < leg[1][2]);
     leg.map_or((last[0], last[1]), |leg| {
