@@ -14,6 +14,7 @@ mod malformed_worlds;
 mod papers;
 mod replans;
 mod scens;
+mod shells;
 mod teams;
 mod walks;
 mod worlds;
