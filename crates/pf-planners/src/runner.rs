@@ -1,7 +1,7 @@
 use crate::{Changes, Conversion, Found, FromScene, Line, Posed, Scene};
 use pf_core::{
-    Budget, Claims, Clock, Context, InvalidProblem, Note, Outcome, Problem, Replanner, Report,
-    Stats, Stop, Trace, Unsupported,
+    Budget, Claims, Clock, Context, Cost, InvalidProblem, Note, Outcome, Problem, Replanner,
+    Report, Solved, Stats, Stop, Trace, Unsupported,
 };
 use pf_geom::Raster;
 use pf_render::Recorder;
@@ -123,6 +123,18 @@ where
     }
 }
 
+/// What is wrong with a solution, whatever its planner says of it.
+fn lie<P: Problem>(problem: &P, solved: &Solved<P>) -> Option<String> {
+    match problem.judge(&solved.solution) {
+        Err(violation) => Some(format!("the planner's path {violation}")),
+        Ok(cost) if cost.same_as(&solved.cost) => None,
+        Ok(cost) => Some(format!(
+            "the planner says that its path costs {:?}, the judge says {cost:?}",
+            solved.cost
+        )),
+    }
+}
+
 /// What a report says of the scene.
 fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> Answer {
     let mut notes: Vec<Note> = Vec::new();
@@ -144,10 +156,17 @@ fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> A
         outcome = outcome.converted();
     }
     if let Some(solved) = outcome.solved() {
-        found = P::read(posed, scene, solved);
+        match lie(&posed.problem, solved) {
+            None => {
+                found = P::read(posed, scene, solved);
+                if found.is_none() {
+                    let text = "the planner's path does not pass the judge of the map that was asked about";
+                    say("refused", text.to_owned());
+                }
+            }
+            Some(lie) => say("refused", lie),
+        }
         if found.is_none() {
-            let text = "the planner's path does not pass the judge of the map that was asked about";
-            say("refused", text.to_owned());
             outcome = Outcome::Unknown { attempt: None };
         }
     }
