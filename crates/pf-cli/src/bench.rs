@@ -3,7 +3,7 @@
 use crate::failure::{Failure, Status};
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
-use pf_suite::{Done, Line, Plan, Shard, Suite, SuiteError, folder, run};
+use pf_suite::{Done, Line, Plan, Shard, Suite, SuiteError, folder, report::Report, run};
 use std::{
     io::{Write, stdout},
     num::NonZeroUsize,
@@ -53,6 +53,28 @@ pub(crate) struct Args {
 enum Verb {
     /// Put the runs of several folders into one
     Merge(MergeArgs),
+    /// Tables, figures and a page of the runs of one or several folders
+    Report(ReportArgs),
+}
+
+#[derive(clap::Args)]
+struct ReportArgs {
+    /// Folders of results
+    #[arg(required = true, value_name = "DIR")]
+    folders: Vec<PathBuf>,
+    /// Where report.html, figures (SVG, PNG) and tables (CSV) go
+    #[arg(short, long, value_name = "OUT")]
+    out: PathBuf,
+    /// In figures of effort a path is found if it costs at most so much more than the best known
+    #[arg(long, value_name = "SHARE", default_value = "0.05", value_parser = share)]
+    target: f64,
+}
+
+fn share(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(share) if share >= 0.0 && share.is_finite() => Ok(share),
+        _ => Err("a number from 0: 0.05 is 5 %".to_owned()),
+    }
 }
 
 #[derive(clap::Args)]
@@ -68,6 +90,7 @@ struct MergeArgs {
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
     match (&args.verb, &args.suite, &args.out) {
         (Some(Verb::Merge(args)), ..) => merge(args),
+        (Some(Verb::Report(args)), ..) => report(args),
         (None, Some(suite), Some(out)) => bench(args, suite, out, cancel),
         _ => Err(Failure::usage("which suite, and where to: SUITE -o DIR")),
     }
@@ -127,6 +150,23 @@ fn merge(args: &MergeArgs) -> Result<Status, Failure> {
     folder::write(&args.out, &lines).map_err(failure)?;
     let (runs, out) = (lines.len(), args.out.display());
     writeln!(stdout().lock(), "{runs} runs are in {out}/")?;
+    Ok(Status::Done)
+}
+
+fn report(args: &ReportArgs) -> Result<Status, Failure> {
+    let lines = gather(&args.folders)?;
+    if lines.is_empty() {
+        return Err(Failure::usage("there are no runs to report on"));
+    }
+    let report = Report::of(&lines, args.target).map_err(failure)?;
+    report.write(&args.out).map_err(failure)?;
+    let mut out = stdout().lock();
+    writeln!(out, "{}", report.text())?;
+    writeln!(
+        out,
+        "The page, figures and tables are in {}/",
+        args.out.display()
+    )?;
     Ok(Status::Done)
 }
 

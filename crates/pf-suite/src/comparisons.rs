@@ -120,7 +120,7 @@ pub fn friedman(problems: &[Vec<f64>]) -> Option<Friedman> {
     let spread = squares - even;
     // Everybody equal everywhere.
     let chi_squared = if spread > 0.0 {
-        (k - 1.0) * between / spread
+        (k - 1.0) * n * between / spread
     } else {
         0.0
     };

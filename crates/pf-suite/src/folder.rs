@@ -248,15 +248,15 @@ fn number(value: Option<f64>) -> String {
 }
 
 /// A row of comma-separated values after RFC 4180.
-fn cells<const N: usize>(cells: [String; N]) -> String {
-    let quoted = cells.map(|cell| {
+pub(crate) fn cells(cells: impl IntoIterator<Item = String>) -> String {
+    let quoted = cells.into_iter().map(|cell| {
         if cell.contains(['"', ',', '\n', '\r']) {
             format!("\"{}\"", cell.replace('"', "\"\""))
         } else {
             cell
         }
     });
-    quoted.join(",")
+    quoted.collect::<Vec<_>>().join(",")
 }
 
 fn json(value: &impl Serialize) -> Result<String, SuiteError> {

@@ -12,6 +12,7 @@ pub mod folder;
 pub mod parallel;
 mod problem;
 mod record;
+pub mod report;
 mod solve;
 pub mod statistics;
 mod suite;
