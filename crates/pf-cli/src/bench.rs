@@ -114,7 +114,17 @@ fn bench(
         tell(&bar, done, asked, line);
     });
     bar.finish_and_clear();
-    let done = done.map_err(|error| failure(error).help_if_strange(out))?;
+    let done = done.map_err(|error| {
+        let strange = matches!(error, SuiteError::Strange { .. });
+        let failure = failure(error);
+        if strange {
+            let out = out.display();
+            return failure.help(format!(
+                "another -o, or --fresh to throw away what {out} holds"
+            ));
+        }
+        failure
+    })?;
     let mut text = stdout().lock();
     writeln!(text, "{}", words(&suite, &done, out))?;
     Ok(match done {
@@ -174,35 +184,24 @@ fn report(args: &ReportArgs) -> Result<Status, Failure> {
 fn gather(folders: &[PathBuf]) -> Result<Vec<Line>, Failure> {
     let mut lines = Vec::new();
     for path in folders {
-        lines.append(&mut folder::read(path).map_err(failure)?);
+        let read = folder::read(path);
+        lines.append(&mut read.map_err(|error| match error {
+            // What the system would not read is a bad input.
+            SuiteError::File(error) => error.into(),
+            other => failure(other),
+        })?);
     }
     folder::merged(lines).map_err(failure)
 }
 
 fn failure(error: SuiteError) -> Failure {
     match error {
-        // What the system would not read is a bad input; what it would not write is not.
         SuiteError::File(error) if error.found_and_expected().is_some() => error.into(),
-        SuiteError::File(error) if error.to_string().contains("cannot be read") => error.into(),
         SuiteError::File(error) => Failure::unwritten(&error),
         SuiteError::Strange { .. } | SuiteError::InUse(_) | SuiteError::Differ { .. } => {
             Failure::usage(error.to_string())
         }
         other => Failure::Internal(other.to_string()),
-    }
-}
-
-impl Failure {
-    fn help_if_strange(self, out: &std::path::Path) -> Self {
-        let strange =
-            matches!(&self, Self::Usage { message, .. } if message.contains("another suite"));
-        if strange {
-            let out = out.display();
-            return self.help(format!(
-                "another -o, or --fresh to throw away what {out} holds"
-            ));
-        }
-        self
     }
 }
 

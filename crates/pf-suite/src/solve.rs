@@ -172,6 +172,15 @@ fn on_scene(
         Ok(answered) => answered,
         Err(why) => return Outcome::none("declined", why),
     };
+    let mut answer = answer;
+    let mut others = Vec::new();
+    for _ in 1..suite.repetitions {
+        if let Ok((again, ..)) = plan(None) {
+            quicker(&mut answer.stats, &again.stats);
+            answer.latency = answer.latency.min(again.latency);
+            others.push(again);
+        }
+    }
     let converted = answer.notes.iter().any(|note| note.key == "converted");
     let mut outcome = Outcome {
         word: word(&answer),
@@ -187,6 +196,13 @@ fn on_scene(
         notes: said(&answer.notes),
         ..Outcome::default()
     };
+    for again in &others {
+        outcome.compare(
+            contender,
+            (word(again), again.costs.first().copied()),
+            again.stop,
+        );
+    }
     // Costs on cells that a world was cut into are none of the world's.
     if suite.convergence && !claims.optimal && !rasterised && outcome.cost.is_some() {
         let mut recorder = Recorder::of_improvements();
@@ -221,6 +237,14 @@ fn on_team(
         return Outcome::none("declined", why);
     };
     let mut outcome = team_run(team, entry, settings, seed, budget, None);
+    for _ in 1..suite.repetitions {
+        let again = team_run(team, entry, settings, seed, budget, None);
+        quicker(&mut outcome.stats, &again.stats);
+        outcome.latency = outcome.latency.min(again.latency);
+        if let Some(stop) = again.stop {
+            outcome.compare(contender, (again.word, again.cost), stop);
+        }
+    }
     if suite.convergence && outcome.cost.is_some() {
         let mut listener = Listener::default();
         let again = team_run(team, entry, settings, seed, budget, Some(&mut listener));
@@ -315,6 +339,14 @@ impl Outcome {
             self.convergence
                 .push((stats.evaluated, stats.expanded, cost));
         }
+    }
+}
+
+/// Takes over the times of the same run, made again, if that took less.
+fn quicker(stats: &mut Stats, again: &Stats) {
+    if again.elapsed < stats.elapsed {
+        stats.elapsed = again.elapsed;
+        stats.first_solution = again.first_solution;
     }
 }
 

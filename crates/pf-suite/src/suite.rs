@@ -29,6 +29,8 @@ pub struct Suite {
     pub contenders: Vec<Contender>,
     /// Whether to run planners that improve their answers a second time, for their improvements.
     pub convergence: bool,
+    /// How often each run is made for its times: the least counts.
+    pub repetitions: u32,
 }
 
 /// A planner with its parameters.
@@ -147,12 +149,13 @@ impl Contender {
     }
 }
 
-const TOP_KEYS: [&str; 7] = [
+const TOP_KEYS: [&str; 8] = [
     "name",
     "title",
     "seeds",
     "budget",
     "convergence",
+    "repetitions",
     "problem",
     "planner",
 ];
@@ -168,6 +171,13 @@ fn suite(path: &Path, root: &Table<'_>) -> Result<Suite, FileError> {
     };
     let limits = limits(&top)?.unwrap_or_default();
     let convergence = top.get("convergence").map(|value| value.truth());
+    let repetitions = match top.get("repetitions") {
+        None => 1,
+        Some(value) => match value.count("how often a run is made")? {
+            n @ 1..=1000 => n,
+            _ => return Err(value.error("how often a run is made: 1 to 1000")),
+        },
+    };
     let problems = problems(path, &top)?;
     let mut contenders: Vec<Contender> = Vec::new();
     let tables = top.tables("planner")?;
@@ -198,6 +208,7 @@ fn suite(path: &Path, root: &Table<'_>) -> Result<Suite, FileError> {
         problems,
         contenders,
         convergence: convergence.transpose()?.unwrap_or(true),
+        repetitions,
     })
 }
 

@@ -47,14 +47,14 @@ pub(crate) struct Curve {
     pub(crate) steps: Vec<(f64, f64)>,
     /// Between what lower and what upper bound, at the same places.
     pub(crate) band: Vec<(f64, f64)>,
+    /// Whether a dot says where the last corner is: there all is over, and what holds goes on to hold.
+    pub(crate) ends: bool,
 }
 
 /// Titles of axes, and what they span.
 pub(crate) struct Axes {
     pub(crate) x: &'static str,
     pub(crate) y: &'static str,
-    /// From 1 at least; logarithmic.
-    pub(crate) across: (f64, f64),
     pub(crate) up: (f64, f64),
     /// A height to compare with, and what it is.
     pub(crate) mark: Option<(f64, &'static str)>,
@@ -67,8 +67,8 @@ pub(crate) fn curves(curves: &[Curve], axes: &Axes) -> Result<String, SuiteError
     let height = 380.max(rows * 22 + 60);
     sheet(height, |area| {
         let (left, right) = area.split_horizontally(WIDTH - LEGEND);
-        let (from, to) = axes.across;
-        let across = (from..to.max(from * 10.0)).log_scale();
+        let (from, to) = span(curves);
+        let across = (from..to).log_scale();
         let mut chart = ChartBuilder::on(&left)
             .margin(12)
             .x_label_area_size(44)
@@ -76,22 +76,25 @@ pub(crate) fn curves(curves: &[Curve], axes: &Axes) -> Result<String, SuiteError
             .build_cartesian_2d(across, axes.up.0..axes.up.1)?;
         mesh(&mut chart, axes)?;
         if let Some((height, _)) = axes.mark {
-            let ends = [(from, height), (to.max(from * 10.0), height)];
+            let ends = [(from, height), (to, height)];
             chart.draw_series(DashedLineSeries::new(ends, 6, 4, GREY.stroke_width(1)))?;
         }
         for curve in curves {
             let colour = colour(curve.contender);
             if !curve.band.is_empty() {
-                let lower = stairs(&curve.steps, |k| curve.band[k].0);
-                let mut around = stairs(&curve.steps, |k| curve.band[k].1);
+                let lower = stairs(&curve.steps, to, |k| curve.band[k].0);
+                let mut around = stairs(&curve.steps, to, |k| curve.band[k].1);
                 around.extend(lower.into_iter().rev());
                 chart.draw_series(std::iter::once(Polygon::new(around, colour.mix(0.15))))?;
             }
-            let line = stairs(&curve.steps, |k| curve.steps[k].1);
+            let line = stairs(&curve.steps, to, |k| curve.steps[k].1);
             if curve.contender < SERIES.len() {
                 chart.draw_series(LineSeries::new(line, colour.stroke_width(2)))?;
             } else {
                 chart.draw_series(DashedLineSeries::new(line, 7, 4, colour.stroke_width(2)))?;
+            }
+            if let (Some(&end), true) = (curve.steps.last(), curve.ends) {
+                chart.draw_series(std::iter::once(Circle::new(end, 4, colour.filled())))?;
             }
         }
         legend(&right, curves, axes)
@@ -162,15 +165,32 @@ pub(crate) fn fitted(name: &str) -> String {
     shown + "…"
 }
 
-/// The corners of steps: each height holds until the next place.
-fn stairs(steps: &[(f64, f64)], height: impl Fn(usize) -> f64) -> Vec<(f64, f64)> {
-    let mut corners = Vec::with_capacity(2 * steps.len());
+/// What the curves span: whole powers of ten at the beginning, some room at the end.
+fn span(curves: &[Curve]) -> (f64, f64) {
+    let places = || {
+        curves
+            .iter()
+            .flat_map(|curve| &curve.steps)
+            .map(|step| step.0)
+    };
+    let (first, last) = (
+        places().fold(f64::INFINITY, f64::min),
+        places().fold(1.0, f64::max),
+    );
+    let from = 10f64.powf(first.clamp(1.0, last).log10().floor());
+    (from, (last * 1.15).max(from * 10.0))
+}
+
+/// The corners of steps: each height holds until the next place, the last to the end.
+fn stairs(steps: &[(f64, f64)], end: f64, height: impl Fn(usize) -> f64) -> Vec<(f64, f64)> {
+    let mut corners = Vec::with_capacity(2 * steps.len() + 1);
     for k in 0..steps.len() {
         if k > 0 {
             corners.push((steps[k].0, height(k - 1)));
         }
         corners.push((steps[k].0, height(k)));
     }
+    corners.extend(steps.len().checked_sub(1).map(|last| (end, height(last))));
     corners
 }
 

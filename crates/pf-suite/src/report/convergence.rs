@@ -18,6 +18,7 @@ pub(crate) fn figures(data: &Data<'_>) -> Result<Vec<Figure>, SuiteError> {
                 contender: c,
                 band: steps.iter().map(|(_, s)| (s.q1, s.q3)).collect(),
                 steps: steps.iter().map(|(at, s)| (*at, s.median)).collect(),
+                ends: true,
             })
         };
         let all = 0..data.contenders.len();
@@ -36,11 +37,9 @@ pub(crate) fn figures(data: &Data<'_>) -> Result<Vec<Figure>, SuiteError> {
                 (*low, *high) = (low.min(up.1), high.min(up.1));
             }
         }
-        let last = |curve: &Curve| curve.steps.last().map_or(10.0, |step| step.0);
         let axes = Axes {
             x: "evaluations",
             y: "cost of the best path so far",
-            across: (1.0, lines.iter().map(last).fold(10.0, f64::max)),
             up,
             mark: Some((best, "best known")),
         };
@@ -48,7 +47,7 @@ pub(crate) fn figures(data: &Data<'_>) -> Result<Vec<Figure>, SuiteError> {
             name: format!("convergence-{}", file_name(problem)),
             title: format!("Convergence: {problem}"),
             words: "The median over the seeds and the middle half of the runs, from where more than half \
-                    of the runs have a path."
+                    of the runs have a path; a dot where the longest of them ended."
                 .to_owned(),
             svg: curves(&lines, &axes)?,
         });

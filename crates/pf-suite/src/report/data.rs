@@ -1,7 +1,13 @@
 //! Runs by problem and contender.
 
-use crate::record::Line;
-use std::collections::{BTreeMap, BTreeSet};
+use crate::{record::Line, statistics::Spread};
+use pf_core::Front;
+use pf_geom::Objectives;
+use pf_moabc::indicators::hypervolume;
+use std::{
+    array,
+    collections::{BTreeMap, BTreeSet},
+};
 
 /// All that is reported on.
 #[derive(Debug)]
@@ -14,6 +20,8 @@ pub(crate) struct Data<'l> {
     declined: Vec<usize>,
     /// By problem, the least cost that anybody found.
     best: Vec<Option<f64>>,
+    /// By problem, for fronts, the least and the greatest of each objective among the best plans.
+    boxes: Vec<Option<[Objectives; 2]>>,
 }
 
 impl<'l> Data<'l> {
@@ -54,7 +62,12 @@ impl<'l> Data<'l> {
                 best[p] = Some(least);
             }
         }
+        let boxes = (0..problems.len()).map(|p| {
+            let here = runs.range((p, 0)..(p + 1, 0)).flat_map(|(_, lines)| lines);
+            spanned(here.flat_map(|line| line.record.front.iter().copied()))
+        });
         Self {
+            boxes: boxes.collect(),
             suites,
             problems,
             contenders,
@@ -95,13 +108,40 @@ impl<'l> Data<'l> {
         }
     }
 
-    /// A contender's score on a problem, the smaller the better: the median of its costs as multiples
-    /// of the best, to nine digits, so that rounding makes nobody better. None if it has no part in it.
+    /// How good a run is, the smaller the better: the cost as a multiple of the best; for a team the
+    /// share of the objectives' box that the front leaves free. To nine digits, so that rounding makes
+    /// nobody better.
+    pub(crate) fn score_of(&self, problem: usize, line: &Line) -> f64 {
+        rounded(match self.volume(problem, line) {
+            Some(volume) => 1.0 - volume,
+            None => self.relative(problem, line),
+        })
+    }
+
+    /// The share of the box that a front dominates: the box reaches from the best of each objective
+    /// that anybody found a tenth beyond the worst among the plans that nobody dominates.
+    pub(crate) fn volume(&self, problem: usize, line: &Line) -> Option<f64> {
+        let [ideal, nadir] = self.boxes[problem]?;
+        let front = &line.record.front;
+        if front.is_empty() {
+            return None;
+        }
+        let scaled = front.iter().map(|cost| -> Objectives {
+            array::from_fn(|k| (cost[k] - ideal[k]) / (nadir[k] - ideal[k]).max(1e-12))
+        });
+        let scaled: Vec<_> = scaled.collect();
+        Some(hypervolume(&scaled, &[1.1; 3]) / 1.1f64.powi(3))
+    }
+
+    /// A contender's score on a problem: the median of its runs. None if it has no part in it.
     pub(crate) fn score(&self, problem: usize, contender: usize) -> Option<f64> {
         let runs = self.runs(problem, contender);
-        let costs = runs.iter().map(|line| self.relative(problem, line));
-        let median = crate::statistics::Spread::of(costs)?.median;
-        Some(rounded(median))
+        let scores = runs.iter().map(|line| self.score_of(problem, line));
+        Some(rounded(Spread::of(scores)?.median))
+    }
+
+    pub(crate) fn has_fronts(&self) -> bool {
+        self.boxes.iter().any(Option::is_some)
     }
 
     /// Whether it makes whole attempts, or else expands states.
@@ -111,6 +151,21 @@ impl<'l> Data<'l> {
     }
 }
 
-pub(crate) fn rounded(value: f64) -> f64 {
+/// The least and the greatest of each objective among the plans that no other dominates.
+fn spanned(costs: impl Iterator<Item = Objectives>) -> Option<[Objectives; 2]> {
+    let front: Front<Objectives> = costs.collect();
+    let fold = |k: usize, pick: fn(f64, f64) -> f64| {
+        let values = front.members().iter().map(|cost| cost[k]);
+        values.reduce(pick)
+    };
+    let mut ends = [[0.0; 3]; 2];
+    for k in 0..3 {
+        ends[0][k] = fold(k, f64::min)?;
+        ends[1][k] = fold(k, f64::max)?;
+    }
+    Some(ends)
+}
+
+fn rounded(value: f64) -> f64 {
     format!("{value:.8e}").parse().unwrap_or(value)
 }

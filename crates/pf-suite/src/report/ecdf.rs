@@ -24,20 +24,9 @@ pub(crate) fn figures(data: &Data<'_>, target: f64) -> Result<Vec<Figure>, Suite
                     contender: c,
                     steps: steps(data, c, target, evaluations),
                     band: Vec::new(),
+                    ends: false,
                 });
             }
-        }
-        let places = || {
-            lines
-                .iter()
-                .flat_map(|curve| &curve.steps)
-                .map(|step| step.0)
-        };
-        let most = places().fold(10.0, f64::max);
-        for curve in &mut lines {
-            // What is not reached by then is never reached.
-            let last = curve.steps.last().map_or(0.0, |step| step.1);
-            curve.steps.push((most, last));
         }
         if lines.is_empty() {
             continue;
@@ -45,7 +34,6 @@ pub(crate) fn figures(data: &Data<'_>, target: f64) -> Result<Vec<Figure>, Suite
         let axes = Axes {
             x: unit,
             y: "share of runs",
-            across: (1.0, most),
             up: (0.0, 1.02),
             mark: None,
         };

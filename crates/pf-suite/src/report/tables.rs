@@ -123,7 +123,7 @@ pub(crate) fn problems(data: &Data<'_>) -> Table {
                 .filter(|line| line.record.solved())
                 .map(|line| data.relative(p, line) - 1.0)
                 .collect();
-            rows.push(vec![
+            let mut row = vec![
                 if first {
                     problem.clone()
                 } else {
@@ -136,27 +136,38 @@ pub(crate) fn problems(data: &Data<'_>) -> Table {
                 median(&numbers(&|l| l.record.length), short),
                 median(&numbers(&|l| l.record.clearance), short),
                 median(&numbers(&|l| Some(l.times.elapsed_us)), time),
-            ]);
+            ];
+            if data.has_fronts() {
+                row.push(median(&numbers(&|l| data.volume(p, l)), short));
+            }
+            rows.push(row);
             first = false;
         }
+    }
+    let mut heads = vec![
+        "problem",
+        "contender",
+        "solved",
+        "cost",
+        "over the best",
+        "length",
+        "clearance",
+        "time",
+    ];
+    let mut words = "Medians over the seeds, with 95 % bootstrap intervals; of the runs that were \
+                     solved, but times of all."
+        .to_owned();
+    if data.has_fronts() {
+        heads.push("hypervolume");
+        words += " For teams the cost is the length of the shortest plan, and the hypervolume the share \
+                  of the box of all three objectives that a front dominates, from the best of each that \
+                  was found to a tenth beyond the worst among plans that no other dominates.";
     }
     Table {
         name: "problems",
         title: "By problem".to_owned(),
-        words:
-            "Medians over the seeds, with 95 % bootstrap intervals; of the runs that were solved, \
-                but times of all."
-                .to_owned(),
-        heads: vec![
-            "problem",
-            "contender",
-            "solved",
-            "cost",
-            "over the best",
-            "length",
-            "clearance",
-            "time",
-        ],
+        words,
+        heads,
         names: 2,
         rows,
     }
@@ -222,13 +233,18 @@ pub(crate) fn pairs(data: &Data<'_>) -> Table {
             }
         }
     }
+    let teams = if data.has_fronts() {
+        ", for teams on the hypervolumes of their fronts"
+    } else {
+        ""
+    };
     let least = (0..most).fold(2.0f64, |p, _| p / 2.0).min(1.0);
     Table {
         name: "pairs",
         title: "Pairs, over problems".to_owned(),
         words: format!(
             "Wilcoxon's signed-rank test on the median costs of both on each problem, as multiples of \
-             the best known; who does not arrive is worse than any who does. Counts are problems on \
+             the best known{teams}; who does not arrive is worse than any who does. Counts are problems on \
              which the first was better, equal, worse. p is two-sided, exact up to 25 differences; the \
              last is corrected by Holm for all pairs. With {most} problems p cannot be less than {}.",
             p_value(least)
@@ -288,7 +304,7 @@ pub(crate) fn pairs_by_problem(data: &Data<'_>) -> Table {
 }
 
 fn shared(data: &Data<'_>, problem: usize, a: usize, b: usize) -> Vec<(f64, f64)> {
-    let score = |line: &Line| super::data::rounded(data.relative(problem, line));
+    let score = |line: &Line| data.score_of(problem, line);
     let others = data.runs(problem, b);
     let pair = |line: &&Line| {
         let seed = line.record.seed;
