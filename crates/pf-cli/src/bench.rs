@@ -5,6 +5,7 @@ use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
 use pf_suite::{Done, Line, Plan, Shard, Suite, SuiteError, folder, report::Report, run};
 use std::{
+    fmt::Write as _,
     io::{Write, stdout},
     num::NonZeroUsize,
     path::PathBuf,
@@ -143,7 +144,8 @@ fn words(suite: &Suite, done: &Done, out: &std::path::Path) -> String {
         (done.declined, "were declined"),
     ] {
         if count > 0 {
-            words += &format!(", {count} {what}");
+            // Writing to a string does not fail.
+            let _ = write!(words, ", {count} {what}");
         }
     }
     let out = out.display();

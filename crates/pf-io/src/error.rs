@@ -61,6 +61,7 @@ impl FileError {
     }
 
     /// About a file that the system would not have read, written or made: `verb` says which.
+    #[must_use]
     pub fn io(file: &Path, verb: &'static str, source: io::Error) -> Self {
         Self {
             file: file.display().to_string(),

@@ -5,6 +5,10 @@
 //! once it is done, and makes none twice. All that a run depends on is its problem, its planner with
 //! parameters, its seed and its budget: planners are made anew for each, so that results are the same
 //! on any number of threads, in any order, in one go or in shards. Every answer is marked by the judge.
+//!
+//! # The format of suites
+//!
+#![doc = include_str!("suite.md")]
 
 pub mod comparisons;
 mod digest;

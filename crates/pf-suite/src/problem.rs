@@ -76,7 +76,7 @@ pub(crate) struct Reader {
 /// A map, its digest, and what measures lines on it.
 #[derive(Clone)]
 struct Map<T> {
-    map: T,
+    content: T,
     digest: u64,
     ruler: Arc<Ruler>,
 }
@@ -152,11 +152,11 @@ impl Reader {
         if let Some((_, map)) = self.worlds.iter().find(|(file, _)| file == path) {
             return Ok(map.clone());
         }
-        let map = read_world(path)?;
+        let content = read_world(path)?;
         let map = Map {
-            digest: of_world(&map.world),
+            digest: of_world(&content.world),
             ruler: Arc::default(),
-            map,
+            content,
         };
         self.worlds.push((path.to_owned(), map.clone()));
         Ok(map)
@@ -171,9 +171,9 @@ impl Reader {
     ) -> Result<Vec<SuiteProblem>, FileError> {
         let table = said.table;
         let map = self.grid(path, said.unknown.unwrap_or_default())?;
-        let size = (map.map.width(), map.map.height());
+        let size = (map.content.width(), map.content.height());
         let ask = |name: String, from, to| {
-            let problem = GridProblem::new(Arc::clone(&map.map), from, to);
+            let problem = GridProblem::new(Arc::clone(&map.content), from, to);
             let problem = problem.map_err(|error| nonsense(table, &error))?;
             let ask = said.grid(&problem, 0.0)?;
             Ok(SuiteProblem {
@@ -194,7 +194,7 @@ impl Reader {
         };
         let rows = read_scen(&self.folder.join(scen.string()?));
         let rows = rows.map_err(|error| unreadable(&scen, error))?;
-        rows.check_size(&map.map)?;
+        rows.check_size(&map.content)?;
         let chosen = chosen_rows(table, &rows)?;
         chosen
             .into_iter()
@@ -215,7 +215,7 @@ impl Reader {
         let table = said.table;
         let map = self.world(path)?;
         let ask = |name: String, radius, from, to| {
-            let world = Arc::clone(&map.map.world);
+            let world = Arc::clone(&map.content.world);
             let problem = WorldProblem::new(world, radius, from, to);
             let problem = problem.map_err(|error| nonsense(table, &error))?;
             Ok(SuiteProblem {
@@ -225,7 +225,7 @@ impl Reader {
                 digest: map.digest,
             })
         };
-        let robots = &map.map.robots;
+        let robots = &map.content.robots;
         let ends = (table.get("from"), table.get("to"));
         if ends.0.is_some() || ends.1.is_some() {
             let from = table.needed("from", "a point [x, y]")?.point("a start")?;
@@ -264,16 +264,16 @@ impl Reader {
         }
         let path = self.folder.join(file.string()?);
         let map = self.world(&path).map_err(|error| unreadable(file, error))?;
-        if map.map.robots.is_empty() {
+        if map.content.robots.is_empty() {
             return Err(file.error("a world with [[robot]]s"));
         }
-        let robots = map.map.robots.iter().map(|robot| pf_geom::Robot {
+        let robots = map.content.robots.iter().map(|robot| pf_geom::Robot {
             start: robot.start,
             goal: robot.goal,
             radius: robot.radius,
             speed: robot.speed.unwrap_or(1.0),
         });
-        let problem = TeamProblem::new(Arc::clone(&map.map.world), robots.collect());
+        let problem = TeamProblem::new(Arc::clone(&map.content.world), robots.collect());
         let mut problem = problem
             .map_err(|error| nonsense(table, &error))?
             .with_timing(Timing::Exact);
@@ -298,7 +298,7 @@ impl Map<Arc<Grid>> {
         Self {
             digest: of_grid(&grid),
             ruler: Arc::default(),
-            map: grid,
+            content: grid,
         }
     }
 }
@@ -306,7 +306,7 @@ impl Map<Arc<Grid>> {
 fn of_grid(grid: &Grid) -> u64 {
     let costs = grid.layout().cells().map(|cell| grid.cost(cell));
     let digest = Digest::default().number(grid.width().into());
-    costs.fold(digest, |digest, cost| digest.byte(cost)).value()
+    costs.fold(digest, Digest::byte).value()
 }
 
 fn of_world(world: &World) -> u64 {
@@ -344,8 +344,8 @@ impl<'t> Said<'t> {
             None => Vec::new(),
             Some(value) if value.is_array() => {
                 let names = value.array("names of cases")?;
-                let named = |value: Value<'t>| Ok((value.string()?.to_owned(), value));
-                names.map(named).collect::<Result<_, FileError>>()?
+                let case = |value: Value<'t>| Ok((value.string()?.to_owned(), value));
+                names.map(case).collect::<Result<_, FileError>>()?
             }
             Some(value) => vec![(value.string()?.to_owned(), value)],
         };

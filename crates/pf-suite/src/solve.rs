@@ -144,7 +144,6 @@ fn settings(contender: &Contender) -> Vec<(String, String)> {
     settings
 }
 
-#[expect(clippy::too_many_arguments, reason = "all that a run depends on")]
 fn on_scene(
     suite: &Suite,
     problem: &SuiteProblem,

@@ -1,5 +1,4 @@
 //! Suites: problems, contenders, seeds, budgets, out of a TOML file.
-#![doc = include_str!("suite.md")]
 
 use crate::{
     digest::Digest,

@@ -33,6 +33,7 @@ const TABLE: [[f64; 4]; 14] = [
 ];
 
 #[test]
+#[expect(clippy::approx_constant, reason = "measurements that look like them")]
 fn signed_ranks_are_exact_for_few() {
     // scipy.stats.wilcoxon(d, method="exact"): Darwin's maize.
     let maize = [49, -67, 8, 16, 6, 23, 28, 41, 14, 29, 56, 24, 75, 60, -48];

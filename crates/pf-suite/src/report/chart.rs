@@ -115,7 +115,7 @@ where
         .axis_desc_style((FONT, 13))
         .x_label_style((FONT, 12))
         .y_label_style((FONT, 12))
-        .x_label_formatter(&|value| count(*value))
+        .x_label_formatter(&|value| sparse(*value, count))
         .light_line_style(WHITE)
         .bold_line_style(RGBColor(0xe6, 0xe9, 0xed))
         .draw()?;
@@ -184,11 +184,11 @@ fn span(curves: &[Curve]) -> (f64, f64) {
 /// The corners of steps: each height holds until the next place, the last to the end.
 fn stairs(steps: &[(f64, f64)], end: f64, height: impl Fn(usize) -> f64) -> Vec<(f64, f64)> {
     let mut corners = Vec::with_capacity(2 * steps.len() + 1);
-    for k in 0..steps.len() {
+    for (k, &(place, _)) in steps.iter().enumerate() {
         if k > 0 {
-            corners.push((steps[k].0, height(k - 1)));
+            corners.push((place, height(k - 1)));
         }
-        corners.push((steps[k].0, height(k)));
+        corners.push((place, height(k)));
     }
     corners.extend(steps.len().checked_sub(1).map(|last| (end, height(last))));
     corners
@@ -200,5 +200,16 @@ fn count(value: f64) -> String {
         v if v >= 1e6 => format!("{}M", v / 1e6),
         v if v >= 1e3 => format!("{}k", v / 1e3),
         v => format!("{v}"),
+    }
+}
+
+/// A label of a logarithmic axis: at one, two and five times a power of ten, as there is no room for
+/// all.
+pub(crate) fn sparse(value: f64, show: impl Fn(f64) -> String) -> String {
+    let digits = format!("{value:e}");
+    if digits.starts_with(['1', '2', '5']) {
+        show(value)
+    } else {
+        String::new()
     }
 }

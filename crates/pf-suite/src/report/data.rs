@@ -154,16 +154,14 @@ impl<'l> Data<'l> {
 /// The least and the greatest of each objective among the plans that no other dominates.
 fn spanned(costs: impl Iterator<Item = Objectives>) -> Option<[Objectives; 2]> {
     let front: Front<Objectives> = costs.collect();
-    let fold = |k: usize, pick: fn(f64, f64) -> f64| {
-        let values = front.members().iter().map(|cost| cost[k]);
-        values.reduce(pick)
+    let first = *front.members().first()?;
+    let fold = |pick: fn(f64, f64) -> f64| -> Objectives {
+        let members = front.members().iter();
+        members.fold(first, |ends, cost| {
+            array::from_fn(|k| pick(ends[k], cost[k]))
+        })
     };
-    let mut ends = [[0.0; 3]; 2];
-    for k in 0..3 {
-        ends[0][k] = fold(k, f64::min)?;
-        ends[1][k] = fold(k, f64::max)?;
-    }
-    Some(ends)
+    Some([fold(f64::min), fold(f64::max)])
 }
 
 fn rounded(value: f64) -> f64 {

@@ -2,7 +2,7 @@
 
 use super::{
     Figure,
-    chart::{Area, Drawn, FONT, colour, fitted, label, sheet},
+    chart::{Area, Drawn, FONT, colour, fitted, label, sheet, sparse},
     data::Data,
     table::short,
     tables::success,
@@ -115,21 +115,14 @@ fn draw(rows: &[Row], unit: &str, log: bool) -> Result<String, SuiteError> {
             .y_label_area_size(NAMES);
         if log {
             let across = (least / 1.5..(most * 1.5).max(least * 12.0)).log_scale();
-            fill(
-                area,
-                &mut builder.build_cartesian_2d(across, up)?,
-                rows,
-                unit,
-            )
+            let show = |value: &f64| sparse(*value, short);
+            let mut chart = builder.build_cartesian_2d(across, up)?;
+            fill(area, &mut chart, rows, unit, &show)
         } else {
             let room = ((most - least.min(0.0)) * 0.03).max(0.5);
             let across = least.min(0.0) - room..most + room;
-            fill(
-                area,
-                &mut builder.build_cartesian_2d(across, up)?,
-                rows,
-                unit,
-            )
+            let mut chart = builder.build_cartesian_2d(across, up)?;
+            fill(area, &mut chart, rows, unit, &|value| short(*value))
         }
     })
 }
@@ -139,6 +132,7 @@ fn fill<'b, X>(
     chart: &mut ChartContext<'_, SVGBackend<'b>, Cartesian2d<X, RangedCoordf64>>,
     rows: &[Row],
     unit: &str,
+    show: &dyn Fn(&f64) -> String,
 ) -> Drawn
 where
     X: Ranged<ValueType = f64> + ValueFormatter<f64>,
@@ -148,7 +142,7 @@ where
         .x_desc(unit)
         .y_labels(0)
         .disable_y_mesh()
-        .x_label_formatter(&|value| short(*value))
+        .x_label_formatter(show)
         .axis_desc_style((FONT, 13))
         .x_label_style((FONT, 12))
         .light_line_style(WHITE)

@@ -1,10 +1,9 @@
 //! One page that needs nothing else.
 
-use super::{Report, escaped};
-use std::fmt::Write;
+use super::{Figure, Report, Table, escaped};
 
 const STYLE: &str = "\
-body { font: 15px/1.5 'DejaVu Sans', Verdana, sans-serif; margin: 0 auto; max-width: 68em; padding: 1em;
+body { font: 15px/1.5 'DejaVu Sans', Verdana, sans-serif; margin: 0 auto; max-width: 82em; padding: 1em;
   color: #24292f; background: #fff; }
 h1 { font-size: 1.5em; } h2 { font-size: 1.15em; margin-top: 2em; }
 p { max-width: 48em; color: #444b55; }
@@ -24,20 +23,29 @@ pub(crate) fn page(report: &Report) -> String {
          <title>{title}</title>\n<style>{STYLE}</style></head><body>\n<h1>{title}</h1>\n<p>{}</p>\n",
         escaped(&report.words)
     );
-    let last = |name: &str| name == "pairs-by-problem";
-    let (ends, begins): (Vec<_>, Vec<_>) = report.tables.iter().partition(|t| last(t.name));
-    page.extend(begins.iter().map(|table| table.html()));
-    for figure in &report.figures {
-        // Writing to a string does not fail.
-        let _ = write!(
-            page,
-            "<figure><figcaption>{}</figcaption>\n{}\n<p>{}</p></figure>\n",
-            escaped(&figure.title),
-            figure.svg,
-            escaped(&figure.words)
-        );
+    // First what is said in a word or a picture, then the details.
+    let figure = |figure: &&Figure| figure.name.starts_with("convergence-");
+    let (details, pictures): (Vec<_>, Vec<_>) = report.figures.iter().partition(figure);
+    let table = |page: &mut String, name: &str| {
+        let tables = report.tables.iter().filter(|table| table.name == name);
+        page.extend(tables.map(Table::html));
+    };
+    table(&mut page, "contenders");
+    page.extend(pictures.into_iter().map(drawn));
+    for name in ["ranks", "pairs", "problems"] {
+        table(&mut page, name);
     }
-    page.extend(ends.iter().map(|table| table.html()));
+    page.extend(details.into_iter().map(drawn));
+    table(&mut page, "pairs-by-problem");
     page.push_str("</body></html>\n");
     page
+}
+
+fn drawn(figure: &Figure) -> String {
+    format!(
+        "<figure><figcaption>{}</figcaption>\n{}\n<p>{}</p></figure>\n",
+        escaped(&figure.title),
+        figure.svg,
+        escaped(&figure.words)
+    )
 }

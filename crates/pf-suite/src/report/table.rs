@@ -18,6 +18,8 @@ pub struct Table {
     pub heads: Vec<&'static str>,
     /// How many columns hold names; numbers stand right.
     pub names: usize,
+    /// Whether rows with the same first cell belong together: there it is shown once.
+    pub grouped: bool,
     /// Cells, row by row.
     pub rows: Vec<Vec<String>>,
 }
@@ -30,8 +32,8 @@ impl Table {
         table
             .load_style(presets::UTF8_FULL_CONDENSED)
             .set_header(self.heads.clone());
-        for row in &self.rows {
-            table.add_row(row.clone());
+        for row in self.shown() {
+            table.add_row(row);
         }
         for column in table.column_iter_mut().skip(self.names) {
             column.set_cell_alignment(CellAlignment::Right);
@@ -56,12 +58,24 @@ impl Table {
             format!("<tr>{}</tr>\n", cells.collect::<String>())
         };
         page += &row("th", &mut self.heads.iter().copied());
-        for cells in &self.rows {
-            page += &row("td", &mut cells.iter().map(String::as_str));
+        for cells in self.shown() {
+            page += &row("td", &mut cells.into_iter());
         }
         // Writing to a string does not fail.
         let _ = writeln!(page, "</table></div>\n<p>{}</p>", escaped(&self.words));
         page
+    }
+
+    /// The cells as people see them.
+    fn shown(&self) -> impl Iterator<Item = Vec<&str>> {
+        self.rows.iter().enumerate().map(|(k, row)| {
+            let mut cells: Vec<&str> = row.iter().map(String::as_str).collect();
+            let again = k > 0 && self.rows[k - 1].first() == row.first();
+            if let (Some(first), true) = (cells.first_mut(), again && self.grouped) {
+                *first = "";
+            }
+            cells
+        })
     }
 
     pub(crate) fn csv(&self) -> String {

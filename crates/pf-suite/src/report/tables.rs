@@ -89,6 +89,7 @@ pub(crate) fn contenders(data: &Data<'_>) -> Table {
             "",
         ],
         names: 1,
+        grouped: false,
         rows: (0..data.contenders.len()).map(row).collect(),
     }
 }
@@ -108,7 +109,6 @@ fn effort(data: &Data<'_>, contender: usize, line: &Line) -> f64 {
 pub(crate) fn problems(data: &Data<'_>) -> Table {
     let mut rows = Vec::new();
     for (p, problem) in data.problems.iter().enumerate() {
-        let mut first = true;
         for (c, contender) in data.contenders.iter().enumerate() {
             let lines = data.runs(p, c);
             if lines.is_empty() {
@@ -124,11 +124,7 @@ pub(crate) fn problems(data: &Data<'_>) -> Table {
                 .map(|line| data.relative(p, line) - 1.0)
                 .collect();
             let mut row = vec![
-                if first {
-                    problem.clone()
-                } else {
-                    String::new()
-                },
+                problem.clone(),
                 contender.clone(),
                 format!("{solved}/{runs}"),
                 median(&numbers(&|l| l.record.cost), short),
@@ -141,7 +137,6 @@ pub(crate) fn problems(data: &Data<'_>) -> Table {
                 row.push(median(&numbers(&|l| data.volume(p, l)), short));
             }
             rows.push(row);
-            first = false;
         }
     }
     let mut heads = vec![
@@ -169,6 +164,7 @@ pub(crate) fn problems(data: &Data<'_>) -> Table {
         words,
         heads,
         names: 2,
+        grouped: true,
         rows,
     }
 }
@@ -260,6 +256,7 @@ pub(crate) fn pairs(data: &Data<'_>) -> Table {
             "the first is",
         ],
         names: 2,
+        grouped: false,
         rows: rows_of(pairs),
     }
 }
@@ -299,6 +296,7 @@ pub(crate) fn pairs_by_problem(data: &Data<'_>) -> Table {
             "the first is",
         ],
         names: 3,
+        grouped: true,
         rows: rows_of(pairs),
     }
 }
@@ -364,6 +362,7 @@ pub(crate) fn ranks(data: &Data<'_>, ranking: &Ranking) -> Table {
         ),
         heads: vec!["contender", "mean rank"],
         names: 1,
+        grouped: false,
         rows: ranking.order.iter().map(row).collect(),
     }
 }
