@@ -349,7 +349,7 @@ mod tests {
         assert_eq!(outcome, "unknown");
         assert_eq!(
             notes,
-            ["refused: the planner's answer: move 0 is not allowed"]
+            ["refused: the planner's answer: move 0 collides"]
         );
         let (outcome, notes) = told(&around, 3);
         assert_eq!(outcome, "unknown");
