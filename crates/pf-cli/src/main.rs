@@ -5,6 +5,7 @@
 //! the budget, 6 a check failed, 130 interrupted.
 
 mod args;
+mod bench;
 mod demo;
 mod drive;
 mod explain;
@@ -48,6 +49,7 @@ Examples:
   pf drive maze.map --sensor 10 --svg drive.svg
   pf walk maps/scenarios/busy-square.toml --png walk.png
   pf team three-robots.toml --prefer safety --svg front.svg
+  pf bench maps/suites/grid-small.toml -o runs
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed
@@ -66,6 +68,8 @@ enum Verb {
     Walk(walk::Args),
     /// Plan for several robots at once and choose from a front of plans
     Team(team::Args),
+    /// Run a suite of problems and planners, and report on its runs
+    Bench(bench::Args),
     /// Run the experiment of a paper again
     Paper(paper::Args),
     /// Search the weights by which bees walk short ways that arrive
@@ -97,6 +101,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Walk(args) => walk::act(&args, &cancel),
         Verb::Tune(args) => tune::act(&args, &cancel),
         Verb::Team(args) => team::act(&args, &cancel),
+        Verb::Bench(args) => bench::act(&args, &cancel),
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),

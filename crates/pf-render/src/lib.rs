@@ -42,7 +42,8 @@ mod svg;
 mod team;
 mod world;
 
+pub use palette::SERIES;
 pub use picture::{Line, Picture};
 pub use png::{NoPicture, png_of};
-pub use recorder::Recorder;
+pub use recorder::{Improvement, Recorder};
 pub use team::TeamSheet;

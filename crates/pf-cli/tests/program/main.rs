@@ -1,6 +1,7 @@
 //! The program as its users see it: what it prints, what it writes, how it ends.
 
 mod answers;
+mod benches;
 mod conversions;
 mod demo;
 mod drives;
