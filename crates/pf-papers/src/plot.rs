@@ -2,9 +2,9 @@
 
 use std::fmt::Write;
 
-/// Colours of Okabe and Ito.
-const COLOURS: [&str; 6] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+/// Colours of Okabe and Ito, and a grey.
+const COLOURS: [&str; 8] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#999999",
 ];
 const WIDTH: f64 = 560.0;
 const HEIGHT: f64 = 360.0;
@@ -80,6 +80,65 @@ pub(crate) fn lines(title: &str, axes: [&str; 2], log: bool, series: &[Series]) 
         axes[0],
         HEIGHT / 2.0,
         axes[1]
+    );
+    svg
+}
+
+/// A dot for each series in each of the cases, from 0 up; points are a case's place and a value.
+#[expect(clippy::cast_precision_loss, reason = "small numbers")]
+pub(crate) fn dots(title: &str, axis: &str, cases: &[String], series: &[Series]) -> String {
+    let names = 16.0 + 6.0 * cases.iter().map(String::len).max().unwrap_or(0) as f64;
+    let (width, row) = (WIDTH + names + 30.0, 15.0 + 4.0 * series.len() as f64);
+    let right = width - RIGHT - 30.0;
+    let bottom = TOP + row * cases.len() as f64;
+    let values = series.iter().flat_map(|s| &s.points).map(|p| p[1]);
+    let most = values.fold(f64::MIN_POSITIVE, f64::max);
+    let across = |v: f64| names + v / most * (right - names);
+    let mut svg = head(width, bottom + BOTTOM, title);
+    for step in 0..=4 {
+        let value = most * f64::from(step) / 4.0;
+        let _ = write!(
+            svg,
+            r##"<path d="M{0:.1} {TOP}V{bottom:.1}" stroke="#ddd"/><text x="{0:.1}" y="{1:.1}" text-anchor="middle">{2}</text>"##,
+            across(value),
+            bottom + 18.0,
+            short(value)
+        );
+    }
+    for (n, case) in cases.iter().enumerate() {
+        let at = TOP + row * n as f64;
+        let _ = write!(
+            svg,
+            r##"<path d="M8 {at:.1}H{:.1}" stroke="#ddd"/><text x="8" y="{:.1}">{case}</text>"##,
+            right,
+            at + row / 2.0 + 4.0
+        );
+    }
+    for (k, line) in series.iter().enumerate() {
+        let (colour, k) = (COLOURS[k % COLOURS.len()], k as f64);
+        for [case, value] in &line.points {
+            let at = TOP + row * case + 9.5 + 4.0 * k;
+            let _ = write!(
+                svg,
+                r#"<circle cx="{:.1}" cy="{at:.1}" r="4" fill="{colour}"/>"#,
+                across(*value)
+            );
+        }
+        let _ = write!(
+            svg,
+            r#"<circle cx="{0:.1}" cy="{1:.1}" r="4" fill="{colour}"/><text x="{2:.1}" y="{3:.1}">{4}</text>"#,
+            right + 14.0,
+            TOP + 16.0 * k + 4.0,
+            right + 24.0,
+            TOP + 16.0 * k + 8.0,
+            line.name
+        );
+    }
+    let _ = write!(
+        svg,
+        r#"<text x="{:.1}" y="{:.1}" text-anchor="middle">{axis}</text></svg>"#,
+        f64::midpoint(names, right),
+        bottom + 38.0
     );
     svg
 }

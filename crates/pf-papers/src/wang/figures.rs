@@ -4,7 +4,7 @@ use super::{LARGE, SMALL, Trial, concave, contenders, four_discs, three_discs};
 use crate::{
     PaperError,
     page::Figure,
-    plot::{Series, lines},
+    plot::{Series, dots},
     row::Row,
 };
 use pf_core::{CancelToken, Front};
@@ -90,17 +90,23 @@ fn volumes(rows: &[Row]) -> Figure {
                     && row.planner == contender.planner
                     && row.variant == contender.variant
             });
-            Some([f64::from(i + 1), own?.measured.number("hypervolume")?])
+            Some([f64::from(i), own?.measured.number("hypervolume")?])
         };
         Series {
             name: format!("{} {}", contender.planner, contender.variant),
             points: (0..).zip(&cases).filter_map(of).collect(),
         }
     });
+    let name = |case: &&str| {
+        case.trim_end_matches(&SMALL.to_string())
+            .trim_end()
+            .to_owned()
+    };
+    let names: Vec<_> = cases.iter().map(name).collect();
     let title = "Hypervolume after 20,000 evaluations, median, problem by problem";
     Figure {
         name: "hypervolume".into(),
         title: title.into(),
-        svg: lines(title, ["problem", "hypervolume"], false, &series),
+        svg: dots(title, "hypervolume", &names, &series),
     }
 }
