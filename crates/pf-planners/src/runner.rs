@@ -347,10 +347,7 @@ mod tests {
         assert_eq!(told(&around, 4), ("optimal", vec![]));
         let (outcome, notes) = told(&[(0, 1), (1, 1), (2, 1)], 2);
         assert_eq!(outcome, "unknown");
-        assert_eq!(
-            notes,
-            ["refused: the planner's answer: move 0 collides"]
-        );
+        assert_eq!(notes, ["refused: the planner's answer: move 0 collides"]);
         let (outcome, notes) = told(&around, 3);
         assert_eq!(outcome, "unknown");
         assert!(

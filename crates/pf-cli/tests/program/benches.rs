@@ -163,7 +163,7 @@ fn ctrl_c_keeps_what_is_done_and_the_same_command_goes_on() {
     // Runs of some milliseconds, and many of them.
     let suite = SUITE
         .replace("iterations = 20, ", "iterations = 400, ")
-        .replace("seeds = 3", "seeds = 25");
+        .replace("seeds = 3", "seeds = 12");
     let folder = folder(&suite);
     let args = ["bench", &folder.name("s.toml"), "-o", &folder.name("out")];
     let child = command(&args)
