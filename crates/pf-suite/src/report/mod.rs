@@ -57,6 +57,7 @@ impl Report {
             tables::contenders(&data),
             tables::problems(&data),
             tables::pairs(&data),
+            tables::pairs_in_time(&data),
         ];
         if let Some(ranking) = &ranking {
             tables.push(tables::ranks(&data, ranking));
