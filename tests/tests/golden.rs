@@ -2,10 +2,12 @@
 
 use pf_abc::{Abc, AbcParams};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
-use pf_classic::{AStar, DStarLite, Dijkstra};
+use pf_classic::{AStar, DStarLite, Dijkstra, Jps, Prepared};
 use pf_core::{Context, Event, Planner, Problem, Replanner, Report};
 use pf_geom::{Point, Rectangle, World, WorldProblem};
 use pf_grid::{Cell, Grid, GridChange, GridProblem, Moves};
+use pf_lbfgs::{Lbfgs, LbfgsParams};
+use pf_pso::{Pso, PsoParams};
 use pf_rfd::{Rfd, RfdExact, RfdField, RfdParams, RfdStar, RfdStarParams};
 use pf_tests::golden;
 use std::fmt::{self, Write as _};
@@ -80,6 +82,27 @@ fn golden_trace_of_dijkstra() {
         "dijkstra",
         &trace(&mut Dijkstra::default(), Moves::default()),
     );
+}
+
+/// The same room without the swamp: jump points need cells that all cost the same.
+fn trace_without_swamp(planner: &mut dyn Planner<GridProblem>, moves: Moves) -> String {
+    let map = MAP.replace('2', ".");
+    let grid = Grid::parse(&map).expect("a map");
+    let problem = GridProblem::new(grid, Cell::new(0, 3), Cell::new(11, 3));
+    let problem = problem.expect("cells of the map").with_moves(moves);
+    let head = format!("{}, {moves}\n{}\n\n", planner.name(), map.trim_end());
+    let plan = |cx: &mut Context<'_, _>| planner.plan(&problem, cx).expect("supported");
+    head + &events(plan).expect("a string takes text")
+}
+
+#[test]
+fn golden_traces_of_jump_points() {
+    for moves in [Moves::default(), Moves::Always] {
+        let name = format!("jps-{}", moves.to_string().replace(' ', "-"));
+        golden::check(&name, &trace_without_swamp(&mut Jps::default(), moves));
+        let name = name.replace("jps", "jps-plus");
+        golden::check(&name, &trace_without_swamp(&mut Prepared::default(), moves));
+    }
 }
 
 #[test]
@@ -178,9 +201,8 @@ fn golden_traces_of_ants() {
     golden::check("aco-star", &trace(&mut star, Moves::default()));
 }
 
-/// Out of a pocket: every step, and the colony at the last.
-#[test]
-fn golden_traces_of_bees() {
+/// A pocket with the robot before it and the goal behind it.
+fn pocket() -> WorldProblem {
     let point = |(x, y): (f64, f64)| Point::new(x, y);
     let block = |a, b| Rectangle::new(point(a), point(b)).expect("a rectangle");
     let walls = [
@@ -190,7 +212,34 @@ fn golden_traces_of_bees() {
     ];
     let world = World::with_shapes(block((0.0, 0.0), (14.0, 12.0)), walls.map(Into::into));
     let problem = WorldProblem::new(world, 0.2, point((2.0, 6.0)), point((12.0, 6.0)));
-    let problem = problem.expect("points of the world");
+    problem.expect("points of the world")
+}
+
+/// Every step, sample and iterate a planner shows in the pocket, and what it answers.
+fn pocket_trace(name: &str, planner: &mut dyn Planner<WorldProblem>) -> String {
+    let at = |p: &Point| format!("{:.9},{:.9}", p.x, p.y);
+    let all = |places: &[Point]| places.iter().map(at).collect::<Vec<_>>().join(" ");
+    let mut lines = vec![name.to_owned(), String::new()];
+    let mut listen = |event: &Event<'_, WorldProblem>| match event {
+        Event::Expanded(place) => lines.push(format!("step to {}", at(place))),
+        Event::Points { name, at } => lines.push(format!("{name} {}", all(at))),
+        Event::Candidate(path) => lines.push(format!("candidate {}", all(path))),
+        Event::Improved(best) => lines.push(format!("improved {:.9}", best.cost)),
+        _ => {}
+    };
+    let mut cx = Context::seeded(7).traced(&mut listen);
+    let report = planner.plan(&pocket(), &mut cx).expect("supported");
+    lines.push(format!(
+        "{} in {} iterations, {} evaluated",
+        report.outcome.word(),
+        report.stats.iterations,
+        report.stats.evaluated
+    ));
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn golden_traces_of_bees() {
     for (name, params) in [
         ("abc", AbcParams::default()),
         ("abc-paper", AbcParams::paper()),
@@ -202,26 +251,40 @@ fn golden_traces_of_bees() {
             w2: 0.1,
             ..params
         };
-        let mut lines = vec![name.to_owned(), String::new()];
-        let mut listen = |event: &Event<'_, WorldProblem>| {
-            let at = |p: &Point| format!("{:.9},{:.9}", p.x, p.y);
-            match event {
-                Event::Expanded(place) => lines.push(format!("step to {}", at(place))),
-                Event::Points { name, at: places } => {
-                    let places: Vec<_> = places.iter().map(at).collect();
-                    lines.push(format!("{name} {}", places.join(" ")));
-                }
-                _ => {}
-            }
-        };
         let mut planner = Abc::new(params).expect("sound parameters");
-        let mut cx = Context::seeded(7).traced(&mut listen);
-        let report = planner.plan(&problem, &mut cx).expect("supported");
-        let (outcome, n) = (report.outcome.word(), report.stats.iterations);
-        lines.push(format!(
-            "{outcome} in {n} iterations, {} evaluated",
-            report.stats.evaluated
-        ));
-        golden::check(name, &(lines.join("\n") + "\n"));
+        golden::check(name, &pocket_trace(name, &mut planner));
+    }
+}
+
+#[test]
+fn golden_traces_of_the_swarm() {
+    for (name, params) in [
+        ("pso", PsoParams::default()),
+        ("pso-paper", PsoParams::paper()),
+    ] {
+        let params = PsoParams {
+            particles: 5,
+            waypoints: 2,
+            iterations: 12,
+            ..params
+        };
+        let mut planner = Pso::new(params).expect("sound parameters");
+        golden::check(name, &pocket_trace(name, &mut planner));
+    }
+}
+
+#[test]
+fn golden_traces_of_descent() {
+    for (name, params) in [
+        ("lbfgs", LbfgsParams::default()),
+        ("lbfgs-paper", LbfgsParams::paper()),
+        ("lbfgs-published-code", LbfgsParams::published_code()),
+    ] {
+        let params = LbfgsParams {
+            points: 8,
+            ..params
+        };
+        let mut planner = Lbfgs::new(params).expect("sound parameters");
+        golden::check(name, &pocket_trace(name, &mut planner));
     }
 }

@@ -2,7 +2,7 @@
 //!
 //! Reads `../shared/data/movingai` beside the workspace, and says so where that is missing.
 
-use pf_classic::{AStar, DStarLite, Dijkstra};
+use pf_classic::{AStar, Auto, DStarLite, Dijkstra, Jps, Prepared};
 use pf_core::{Context, Planner};
 use pf_grid::GridProblem;
 use pf_io::{LoadOptions, load_grid, read_scen};
@@ -36,10 +36,13 @@ fn stated_optima_are_met() {
         let grid = load_grid(&file, &LoadOptions::default()).unwrap().grid;
         let scen = read_scen(&folder.join(format!("{map}.map.scen"))).unwrap();
         scen.check_size(&grid).unwrap();
-        let planners: [&mut dyn Planner<GridProblem>; 3] = [
+        let planners: [&mut dyn Planner<GridProblem>; 6] = [
             &mut AStar::default(),
             &mut Dijkstra::default(),
             &mut DStarLite::default(),
+            &mut Jps::default(),
+            &mut Prepared::default(),
+            &mut Auto::default(),
         ];
         for planner in planners {
             for row in scen.rows.iter().step_by(scen.rows.len() / 40) {

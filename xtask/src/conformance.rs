@@ -1,6 +1,8 @@
 //! `cargo xtask conformance`: every planner, every law that binds it; and every rogue, to see that
 //! each law bites.
 
+mod external;
+
 use crate::steps::Verdict;
 use anyhow::{Result, ensure};
 use pf_conformance::{
@@ -22,6 +24,9 @@ pub(crate) struct Args {
     /// Only this planner, by its `--planner` name
     #[arg(long, value_name = "NAME")]
     planner: Option<String>,
+    /// Only the planner in this program (docs/external.md)
+    #[arg(long, value_name = "COMMAND", conflicts_with = "planner")]
+    external: Option<String>,
     /// How many problems to make up beside the drawn ones
     #[arg(long, value_name = "N")]
     cases: Option<u32>,
@@ -41,6 +46,10 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
         ..ordinary
     };
     let mut tally = Tally::default();
+    if let Some(command) = &args.external {
+        external::hold(command, &options, &mut tally)?;
+        return Ok(tally.told());
+    }
     let wanted = |key: &str| args.planner.as_ref().is_none_or(|name| name == key);
     for planner in pf_planners::grid_planners().filter(|planner| wanted(planner.key())) {
         hold(&Grids, &options, planner, &mut tally)?;
@@ -55,8 +64,7 @@ pub(crate) fn run(args: &Args) -> Result<Verdict> {
     if args.planner.is_none() {
         examine_rogues(&mut tally);
     }
-    println!("{} passed, {} failed", tally.passed, tally.failed);
-    Ok(Verdict::passed_if(tally.failed == 0))
+    Ok(tally.told())
 }
 
 /// Holds a planner to every law that binds it.
@@ -104,6 +112,12 @@ impl Tally {
     fn add(&mut self, passed: bool) {
         self.passed += u32::from(passed);
         self.failed += u32::from(!passed);
+    }
+
+    /// Says how many passed and failed.
+    fn told(&self) -> Verdict {
+        println!("{} passed, {} failed", self.passed, self.failed);
+        Verdict::passed_if(self.failed == 0)
     }
 }
 

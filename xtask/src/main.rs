@@ -5,6 +5,7 @@ mod bench;
 mod bless;
 mod ci;
 mod conformance;
+mod gallery;
 mod laws;
 mod maps;
 mod new_planner;
@@ -49,6 +50,8 @@ enum Verb {
     Bench(bench::Args),
     /// Draws the maps that are made here: maps/grids/office.yaml and its picture
     Maps,
+    /// Draws the pictures of docs/gallery.md again
+    Gallery,
     /// Makes a crate for a new planner, with a conformance test that fails until it is written
     NewPlanner(new_planner::Args),
 }
@@ -73,6 +76,7 @@ fn main() -> ExitCode {
         Verb::Bless => bless::run(),
         Verb::Bench(args) => bench::run(&args),
         Verb::Maps => maps::run(),
+        Verb::Gallery => gallery::run(),
         Verb::NewPlanner(args) => new_planner::run(&args),
     };
     match verdict {

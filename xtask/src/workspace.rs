@@ -34,11 +34,12 @@ pub(crate) struct Dependency {
     pub(crate) optional: bool,
 }
 
-/// A text file under version control.
+/// A file under version control.
 #[derive(Clone, Debug)]
 pub(crate) struct Source {
     /// Relative to the root.
     pub(crate) path: String,
+    /// Empty if it is not text.
     pub(crate) text: String,
 }
 
@@ -100,13 +101,12 @@ pub(crate) fn tracked(root: &Path) -> Result<Vec<String>> {
     Ok(paths.split('\0').filter(there).map(str::to_owned).collect())
 }
 
-/// The tracked files that are text.
+/// The tracked files; of one that is not text only the name.
 pub(crate) fn sources(root: &Path) -> Result<Vec<Source>> {
     let mut sources = Vec::new();
     for path in tracked(root)? {
-        if let Ok(text) = String::from_utf8(fs::read(root.join(&path))?) {
-            sources.push(Source { path, text });
-        }
+        let text = String::from_utf8(fs::read(root.join(&path))?).unwrap_or_default();
+        sources.push(Source { path, text });
     }
     Ok(sources)
 }

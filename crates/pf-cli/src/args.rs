@@ -37,8 +37,11 @@ impl PlannerArgs {
     /// The entry asked for.
     pub(crate) fn entry(&self, default: &str) -> Result<&'static dyn AnyEntry, Failure> {
         find(self.planner.as_deref().unwrap_or(default)).map_err(|error| {
-            let known = format!("the planners are {}", error.known().join(", "));
-            Failure::usage(error.to_string()).help(known)
+            let failure = Failure::usage(error.to_string());
+            if error.known().is_empty() {
+                return failure;
+            }
+            failure.help(format!("the planners are {}", error.known().join(", ")))
         })
     }
 

@@ -18,6 +18,7 @@ mod question;
 mod replan;
 mod report;
 mod scen;
+mod shell;
 mod spot;
 mod team;
 mod text;
@@ -26,7 +27,7 @@ mod view;
 mod walk;
 mod words;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory, Parser, Subcommand};
 use failure::{Failure, Status};
 use std::process::ExitCode;
 
@@ -77,6 +78,10 @@ enum Verb {
     Planners(planners::Args),
     /// Compare all planners on a few maps and draw pictures
     Demo(demo::Args),
+    /// Print what a shell needs to complete the program's arguments
+    Completions(shell::CompletionsArgs),
+    /// Write manual pages, one for the program and one for each verb
+    Man(shell::ManArgs),
 }
 
 fn main() -> ExitCode {
@@ -100,13 +105,15 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),
+        Verb::Completions(args) => shell::completions(&args, Program::command()),
+        Verb::Man(args) => shell::man(&args, Program::command()),
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::Program;
-    use clap::CommandFactory;
+    use clap::CommandFactory as _;
 
     #[test]
     fn the_arguments_are_sound() {

@@ -8,9 +8,9 @@ use crate::{
     text,
     view::{self, Shown},
 };
-use pf_core::{Stats, Stop};
+use pf_core::{Note, Stats, Stop};
 pub(crate) use pf_planners::length;
-use pf_planners::{Answer, AnyEntry, Line, Ruler, Scene};
+use pf_planners::{Answer, AnyEntry, FAULT, Line, Ruler, Scene};
 use pf_render::{Line as Pen, Picture};
 use serde::{Serialize, Serializer};
 use std::io::Write;
@@ -85,8 +85,10 @@ impl From<Stats> for JsonStats {
 
 /// What an answer means for the program's end.
 pub(crate) fn status(answer: &Answer) -> Status {
+    let at_fault = |note: &Note| note.key == FAULT;
     match answer.outcome {
         _ if answer.stop == Stop::Cancelled => Status::Interrupted,
+        _ if answer.notes.iter().any(at_fault) => Status::CheckFailed,
         "infeasible" => Status::NoPath,
         "unknown" => Status::NotFound,
         _ => Status::Done,

@@ -266,6 +266,21 @@ impl<'a, P: Problem> Context<'a, P> {
         self.stop != Stop::Finished
     }
 
+    /// Whether the work was cancelled or its time is up, without counting an iteration: for a planner
+    /// that waits for somebody else's work.
+    pub fn is_over(&mut self) -> bool {
+        if self.budget.cancel.is_cancelled() {
+            self.stop = Stop::Cancelled;
+        } else if self
+            .budget
+            .time
+            .is_some_and(|limit| self.elapsed() >= limit)
+        {
+            self.stop = Stop::Time;
+        }
+        self.stopped()
+    }
+
     /// Whether somebody listens: worth asking before preparing what only a listener needs.
     #[inline]
     #[must_use]

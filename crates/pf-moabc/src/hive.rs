@@ -6,10 +6,10 @@ use crate::{
     encoding::{Encoding, Scratch, Start},
     params::Common,
     sort::Sorter,
+    workers::Workers,
 };
 use pf_core::{Context, Front, Solved};
 use pf_geom::{Mark, Objectives, TeamPlan, TeamProblem};
-use std::thread;
 
 /// Rows of numbers with their marks, in flat arrays.
 #[derive(Clone, Debug, Default)]
@@ -65,7 +65,11 @@ pub(crate) struct Hive {
     pub(crate) evaluated: u64,
     kept: Rows,
     scratch: Vec<Scratch>,
+    workers: Workers,
 }
+
+/// Some rows and their marks.
+type Share<'a> = (&'a mut [f64], &'a mut [Mark]);
 
 type Cx<'a> = Context<'a, TeamProblem>;
 
@@ -117,7 +121,10 @@ impl Hive {
             .resize_with(threads.max(self.scratch.len()), Scratch::default);
         let share = count.div_ceil(threads).max(1);
         let (nest, encoding) = (&self.nest, &self.encoding);
-        let work = |number: usize, genes: &mut [f64], marks: &mut [Mark], own: &mut Scratch| {
+        let genes = self.brood.genes[first * width..].chunks_mut(share * width);
+        let marks = self.brood.marks[first..].chunks_mut(share);
+        let shares = (first..).step_by(share).zip(genes.zip(marks));
+        let work = |((number, (genes, marks)), own): ((usize, Share<'_>), &mut Scratch)| {
             let rows = genes.chunks_exact_mut(width).zip(marks);
             for (number, (row, mark)) in (number..).zip(rows) {
                 make(nest, dice, number, row);
@@ -125,21 +132,8 @@ impl Hive {
                 *mark = encoding.mark(problem, row, own);
             }
         };
-        let genes = self.brood.genes[first * width..].chunks_mut(share * width);
-        let marks = self.brood.marks[first..].chunks_mut(share);
-        let shares = genes.zip(marks).zip(&mut self.scratch);
-        if threads == 1 {
-            for ((genes, marks), own) in shares {
-                work(first, genes, marks, own);
-            }
-        } else {
-            thread::scope(|scope| {
-                for (n, ((genes, marks), own)) in shares.enumerate() {
-                    let work = &work;
-                    scope.spawn(move || work(first + n * share, genes, marks, own));
-                }
-            });
-        }
+        let pieces = shares.zip(&mut self.scratch);
+        self.workers.share(threads, pieces, work);
         self.take_in(first, problem, cx);
     }
 

@@ -15,6 +15,7 @@ mod nsga2;
 mod params;
 mod random;
 mod sort;
+mod workers;
 
 pub use baseline::Prioritised;
 pub use bees::Moabc;

@@ -1,5 +1,6 @@
 use crate::{FromScene, Runner, runner::On};
 use pf_core::{Claims, InvalidParams, Key, Params, Problem, Replanner, Trace};
+use pf_external::Fault;
 use pf_render::Recorder;
 use std::fmt;
 
@@ -152,9 +153,20 @@ pub struct UnknownPlanner {
     asked: String,
     near: Option<&'static str>,
     known: Vec<&'static str>,
+    /// What its program did wrong, if it is one.
+    fault: Option<String>,
 }
 
 impl UnknownPlanner {
+    pub(crate) fn silent(asked: &str, fault: &Fault) -> Self {
+        Self {
+            asked: asked.to_owned(),
+            near: None,
+            known: Vec::new(),
+            fault: Some(fault.to_string()),
+        }
+    }
+
     pub(crate) fn new(asked: &str, known: impl Iterator<Item = &'static str>) -> Self {
         let known: Vec<_> = known.collect();
         let likeness = |key: &str| strsim::jaro_winkler(&asked.to_lowercase(), key);
@@ -168,6 +180,7 @@ impl UnknownPlanner {
                 .filter(|(likeness, _)| *likeness > 0.75)
                 .map(|(_, key)| key),
             known,
+            fault: None,
         }
     }
 
@@ -186,6 +199,9 @@ impl UnknownPlanner {
 
 impl fmt::Display for UnknownPlanner {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(fault) = &self.fault {
+            return write!(f, "{}: {fault}", self.asked);
+        }
         write!(f, "there is no planner `{}`; ", self.asked)?;
         if let Some(near) = self.near {
             write!(f, "did you mean `{near}`? ")?;

@@ -34,6 +34,7 @@
 //! ```
 
 mod entry;
+mod external;
 mod grid;
 mod grid_scene;
 mod list;
@@ -48,6 +49,7 @@ mod world_scene;
 pub use entry::{AnyEntry, Entry, Settings, UnknownPlanner};
 pub use grid_scene::GridScene;
 pub use list::{all, find, grid_planners, team_planners, world_planners};
+pub use pf_external::FAULT;
 pub use posed::{Conversion, Found, FromScene, Line, Posed};
 pub use ruler::{Ruler, length};
 pub use runner::{Answer, Order, Refusal, Runner};

@@ -1,6 +1,6 @@
 //! The list itself.
 
-use crate::{AnyEntry, Entry, UnknownPlanner, entry::entry};
+use crate::{AnyEntry, Entry, UnknownPlanner, entry::entry, external};
 use pf_abc::{Abc, AbcParams};
 use pf_aco::{Aco, AcoParams, AcoStar, AcoStarParams};
 use pf_classic::{
@@ -73,11 +73,15 @@ pub fn all() -> impl Iterator<Item = &'static dyn AnyEntry> {
     grid.chain(world).chain(team)
 }
 
-/// The planner called `key`.
+/// The planner called `key`; `external:COMMAND` is the one in another program
+/// ([`External`](pf_external::External)), which is started to say who it is.
 ///
 /// # Errors
-/// [`UnknownPlanner`] if there is none.
+/// [`UnknownPlanner`] if there is none, or its program does not answer.
 pub fn find(key: &str) -> Result<&'static dyn AnyEntry, UnknownPlanner> {
+    if let Some(command) = key.strip_prefix(external::PREFIX) {
+        return external::find(command).map_err(|fault| UnknownPlanner::silent(key, &fault));
+    }
     let found = all().find(|entry| entry.key() == key);
     found.ok_or_else(|| UnknownPlanner::new(key, all().map(AnyEntry::key)))
 }

@@ -10,7 +10,7 @@ enum Layer {
     /// pf-grid, pf-geom.
     Problem,
     Planner,
-    /// pf-io, pf-render.
+    /// pf-io, pf-render, pf-external.
     Port,
     Conformance,
     Registry,
@@ -26,7 +26,7 @@ fn layer(name: &str) -> Layer {
     match name {
         "pf-core" => Layer::Core,
         "pf-grid" | "pf-geom" => Layer::Problem,
-        "pf-io" | "pf-render" => Layer::Port,
+        "pf-io" | "pf-render" | "pf-external" => Layer::Port,
         "pf-conformance" => Layer::Conformance,
         "pf-planners" => Layer::Registry,
         "pf-bench" | "pf-papers" | "pf-suite" => Layer::Study,

@@ -1,8 +1,10 @@
 //! `bench grid`: shortest paths on the maps and queries of the Moving AI benchmark.
 //!
 //! Of each map's queries some are asked, spread evenly over their lengths. All contenders under the
-//! same moves answer a query one after the other, several times, and the least time of each counts.
-//! What is timed is the search and, of ours, the judge that marks the path. Costs are compared exactly
+//! same moves answer a query one after the other, each several times in a row, and the least time of each
+//! counts: a planner has its own memory at hand, not what another left of it, as it does for whoever
+//! asks it alone. Who begins changes with every query. What is timed is the search and, of ours, the
+//! judge that marks the path. Costs are compared exactly
 //! with those of our A*, and those under the file's moves with the optimum it states. Where all prove
 //! that there is no path although the file states an optimum, the query counts as one without a path.
 //!
@@ -123,9 +125,9 @@ fn bench(
         let problem = problem.with_moves(group.moves);
         let mut least = vec![Duration::MAX; count];
         let mut answers = vec![None; count];
-        for _ in 0..REPETITIONS {
-            for k in (0..count).map(|k| (asked + k) % count) {
-                let one = &mut group.contenders[k];
+        for k in (0..count).map(|k| (asked + k) % count) {
+            let one = &mut group.contenders[k];
+            for _ in 0..REPETITIONS {
                 one.prepare();
                 let (time, ()) = timed(|| one.search(&problem));
                 least[k] = least[k].min(time);

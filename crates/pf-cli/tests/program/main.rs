@@ -5,6 +5,7 @@ mod benches;
 mod conversions;
 mod demo;
 mod drives;
+mod externals;
 mod faults;
 mod interrupts;
 #[path = "../../../pf-io/tests/inputs/malformed.rs"]
@@ -14,6 +15,8 @@ mod malformed_worlds;
 mod papers;
 mod replans;
 mod scens;
+mod shells;
+mod teams;
 mod walks;
 mod worlds;
 mod worlds_in_time;

@@ -56,10 +56,15 @@ pub(crate) fn contenders(data: &Data<'_>) -> Table {
         };
         let declined = data.declined(c);
         let declined = (declined > 0).then(|| format!("{declined} declined"));
-        let odd: Vec<_> = [count("panicked"), count("refused"), declined]
-            .into_iter()
-            .flatten()
-            .collect();
+        let odd: Vec<_> = [
+            count("panicked"),
+            count("failed"),
+            count("refused"),
+            declined,
+        ]
+        .into_iter()
+        .flatten()
+        .collect();
         vec![
             data.contenders[c].clone(),
             runs.to_string(),
