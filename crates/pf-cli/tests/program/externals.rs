@@ -116,40 +116,44 @@ fn a_suite_names_programs_that_fail_and_goes_on() {
     if !python() {
         return;
     }
-    // By the seed: a path, a collision, garbage, silence for good, the end.
-    let code = "import json, sys, time\ninput()\n\
+    // By its argument: a path, a collision, garbage, silence for good, the end.
+    let code = "import json, sys, time\nmode = sys.argv[1]\ninput()\n\
         print(json.dumps(dict(name='Py', problem='grid')), flush=True)\n\
         while True:\n q = json.loads(input())\n way = [[0, 0], [1, 0], [2, 0]]\n\
-        \x20if q['seed'] == 1: way = [[0, 0], [2, 0]]\n\
-        \x20if q['seed'] == 2: print('what?', flush=True)\n\
-        \x20if q['seed'] == 3: time.sleep(60)\n\
-        \x20if q['seed'] == 4: sys.exit(3)\n\
+        \x20if mode == 'jumps': way = [[0, 0], [2, 0]]\n\
+        \x20if mode == 'babbles': print('what?', flush=True)\n\
+        \x20if mode == 'hangs': time.sleep(60)\n\
+        \x20if mode == 'ends': sys.exit(3)\n\
         \x20print(json.dumps(dict(id=q['id'], outcome='feasible', path=way)), flush=True)\n";
     let folder = map("...");
     std::fs::write(folder.path("planner.py"), code).unwrap();
-    let planner = format!("external:python3 {}", folder.name("planner.py"));
-    let suite = format!(
-        "seeds = 5\n[[problem]]\nfile = \"m.map\"\nfrom = [0, 0]\nto = [2, 0]\n\
-         [[planner]]\nname = \"astar\"\n\
-         [[planner]]\nname = \"{planner}\"\nvariant = \"py\"\nset = {{ limit = 0.5 }}\n"
-    );
+    let mut suite = "[[problem]]\nfile = \"m.map\"\nfrom = [0, 0]\nto = [2, 0]\n\
+        [[planner]]\nname = \"astar\"\n"
+        .to_owned();
+    let modes = ["works", "jumps", "babbles", "hangs", "ends"];
+    for mode in modes {
+        let file = folder.name("planner.py");
+        suite += "[[planner]]\nset = { limit = 0.7 }\nvariant = \"py\"\n";
+        suite += &["name = \"external:python3 ", &file, " ", mode, "\"\n"].concat();
+    }
     std::fs::write(folder.path("s.toml"), suite).unwrap();
     let (suite, out) = (folder.name("s.toml"), folder.name("out"));
     let run = pf(&["bench", &suite, "-o", &out, "--threads", "2"]).ends(6);
-    assert!(run.out.contains("10 runs"), "{}", run.out);
+    assert!(run.out.contains("6 runs, 4 failed"), "{}", run.out);
     let results = std::fs::read_to_string(folder.path("out/results.csv")).unwrap();
-    let outcome = |planner: &str, seed: u64| {
-        let head = format!("s,m,grid,{planner},{seed},");
-        let line = results.lines().find(|line| line.starts_with(&head));
-        let rest = line.map(|line| line[head.len()..].split(',').next());
-        rest.flatten().unwrap_or("none").to_owned()
-    };
-    for seed in 0..5 {
-        assert_eq!(outcome("astar,", seed), "optimal");
+    for mode in modes {
+        let word = if mode == "works" {
+            "feasible"
+        } else {
+            "failed"
+        };
+        let words = format!("planner.py {mode},py,0,{word},");
+        assert!(results.contains(&words), "no {words} in {results}");
     }
-    let py = format!("{planner},py");
-    let told: Vec<_> = (0..5).map(|seed| outcome(&py, seed)).collect();
-    assert_eq!(told[0], "feasible", "{results}");
-    assert!(told[1..].iter().all(|word| word == "failed"), "{results}");
-    assert!(run.err.contains("seed 3: failed"), "{}", run.err);
+    assert!(results.contains(",astar,,0,optimal,"), "{results}");
+    assert!(
+        run.err.contains("hangs py on m, seed 0: failed"),
+        "{}",
+        run.err
+    );
 }
