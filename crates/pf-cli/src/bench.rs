@@ -130,7 +130,9 @@ fn bench(
     writeln!(text, "{}", words(&suite, &done, out))?;
     Ok(match done {
         Done { .. } if !done.is_complete() => Status::Interrupted,
-        Done { panicked: 1.., .. } | Done { refused: 1.., .. } => Status::CheckFailed,
+        Done { panicked: 1.., .. } | Done { failed: 1.., .. } | Done { refused: 1.., .. } => {
+            Status::CheckFailed
+        }
         _ => Status::Done,
     })
 }
@@ -140,6 +142,7 @@ fn words(suite: &Suite, done: &Done, out: &std::path::Path) -> String {
     for (count, what) in [
         (done.before, "were there already"),
         (done.panicked, "panicked"),
+        (done.failed, "failed in another program"),
         (done.refused, "did not pass the judge"),
         (done.declined, "were declined"),
     ] {
@@ -225,7 +228,7 @@ fn tell(bar: &ProgressBar, done: usize, asked: usize, line: Option<&Line>) {
     let record = &line.record;
     bar.set_position(done as u64);
     bar.set_message(format!("{} on {}", record.contender(), record.problem));
-    if matches!(record.outcome.as_str(), "panicked" | "refused") {
+    if matches!(record.outcome.as_str(), "panicked" | "failed" | "refused") {
         let (who, seed, note) = (record.contender(), record.seed, record.notes.join("; "));
         bar.suspend(|| {
             let _ = writeln!(

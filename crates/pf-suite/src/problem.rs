@@ -1,15 +1,17 @@
 //! The problems of a suite: from its tables and the files they name to what planners are asked.
 
+mod said;
+
 use crate::digest::Digest;
-use pf_core::InvalidProblem;
 use pf_geom::{TeamProblem, Timing, World, WorldProblem};
-use pf_grid::{Grid, GridProblem, Moves};
+use pf_grid::{Grid, GridProblem};
 use pf_io::{
     AnyScenario, FileError, FileKind, LoadOptions, Scen, Unknown, WorldFile, kind_of, load_grid,
     load_scenario, read_scen, read_world,
-    toml_tree::{Table, Value, nearest},
+    toml_tree::{Table, Value},
 };
-use pf_planners::{GridScene, Robot, Ruler, Scene, WorldScene};
+use pf_planners::{Ruler, Scene};
+use said::{Said, nonsense};
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -79,18 +81,6 @@ struct Map<T> {
     content: T,
     digest: u64,
     ruler: Arc<Ruler>,
-}
-
-/// What a table says besides the file.
-struct Said<'t> {
-    table: &'t Table<'t>,
-    radius: Option<f64>,
-    clearance: f64,
-    cell: Option<f64>,
-    moves: Option<Moves>,
-    unknown: Option<Unknown>,
-    /// The names of cases to take; all if empty.
-    cases: Vec<(String, Value<'t>)>,
 }
 
 impl Reader {
@@ -335,91 +325,6 @@ fn digest(ask: &Ask, map: u64) -> u64 {
     }
 }
 
-impl<'t> Said<'t> {
-    fn read(table: &'t Table<'t>) -> Result<Self, FileError> {
-        let size = |key, what: &str| table.get(key).map(|value| value.size(what)).transpose();
-        let moves = Moves::ALL.map(|moves| (moves.name(), moves));
-        let sorts = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
-        let cases = match table.get("case") {
-            None => Vec::new(),
-            Some(value) if value.is_array() => {
-                let names = value.array("names of cases")?;
-                let case = |value: Value<'t>| Ok((value.string()?.to_owned(), value));
-                names.map(case).collect::<Result<_, FileError>>()?
-            }
-            Some(value) => vec![(value.string()?.to_owned(), value)],
-        };
-        Ok(Self {
-            table,
-            radius: size("radius", "the robot's radius")?,
-            clearance: size("clearance", "how far to stay away")?.unwrap_or(0.0),
-            cell: size("cell", "the side of a cell")?,
-            moves: table.one_of("moves", &moves)?,
-            unknown: table.one_of("unknown", &sorts)?,
-            cases,
-        })
-    }
-
-    fn robot(&self, radius: f64) -> Robot {
-        Robot {
-            radius: self.radius.unwrap_or(radius),
-            clearance: self.clearance,
-        }
-    }
-
-    fn refuse(&self, key: &str, why: &str) -> Result<(), FileError> {
-        let value = self.table.get(key);
-        value.map_or(Ok(()), |value| {
-            Err(value.error(format!("no \"{key}\": {why}")))
-        })
-    }
-
-    fn grid(&self, problem: &GridProblem, radius: f64) -> Result<Scene, FileError> {
-        self.refuse("cell", "a grid has cells")?;
-        let scene = GridScene::of(problem.clone())
-            .with_moves(self.moves.unwrap_or(problem.moves()))
-            .with_robot(self.robot(radius));
-        Ok(scene.map_err(|error| nonsense(self.table, &error))?.into())
-    }
-
-    fn world(&self, problem: &WorldProblem) -> Result<Scene, FileError> {
-        for key in ["scen", "rows", "unknown"] {
-            self.refuse(key, "the file is a world of shapes")?;
-        }
-        let make = || {
-            let robot = self.robot(problem.radius());
-            let ends = (problem.start(), problem.goal());
-            let mut scene = WorldScene::new(problem.shared_world(), robot, ends.0, ends.1)?;
-            if let Some(cell) = self.cell {
-                scene = scene.with_cell(cell)?;
-            }
-            if let Some(moves) = self.moves {
-                scene = scene.with_moves(moves);
-            }
-            Ok(scene.into())
-        };
-        make().map_err(|error| nonsense(self.table, &error))
-    }
-
-    /// The places of the cases that are asked for among these.
-    fn chosen(&self, names: &[String]) -> Result<Vec<usize>, FileError> {
-        if self.cases.is_empty() {
-            return Ok((0..names.len()).collect());
-        }
-        let place = |(name, value): &(String, Value<'_>)| {
-            let found = names.iter().position(|known| known == name);
-            found.ok_or_else(|| {
-                let known = names.iter().map(String::as_str);
-                value.error(match nearest(name, known.clone()) {
-                    Some(near) => format!("\"{near}\""),
-                    None => format!("one of {}", few(known)),
-                })
-            })
-        };
-        self.cases.iter().map(place).collect()
-    }
-}
-
 /// A question per case of a scenario; what happens later does not happen here.
 fn cases(said: &Said<'_>, path: &Path, base: &str) -> Result<Vec<SuiteProblem>, FileError> {
     for key in ["scen", "rows", "from", "to", "unknown"] {
@@ -497,25 +402,10 @@ fn base_name(table: &Table<'_>, path: &Path) -> Result<String, FileError> {
     Ok(table.name()?.unwrap_or_else(|| stem().into_owned()))
 }
 
-fn nonsense(table: &Table<'_>, error: &InvalidProblem) -> FileError {
-    table.error(error.to_string(), "a question that makes sense")
-}
-
 /// A file that is not there is a mistake in the suite.
 fn unreadable(value: &Value<'_>, error: FileError) -> FileError {
     match error.found_and_expected() {
         None => value.error(format!("a file that can be read; {error}")),
         Some(_) => error,
-    }
-}
-
-/// The first few names.
-fn few<'n>(names: impl Iterator<Item = &'n str>) -> String {
-    const MOST: usize = 8;
-    let names: Vec<_> = names.collect();
-    let shown = names[..names.len().min(MOST)].join(", ");
-    match names.len().checked_sub(MOST) {
-        Some(more @ 1..) => format!("{shown} and {more} more"),
-        _ => shown,
     }
 }

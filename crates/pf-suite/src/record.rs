@@ -17,7 +17,8 @@ pub struct Record {
     /// The seed.
     pub seed: u64,
     /// `optimal`, `feasible`, `infeasible`, `unknown`; `declined` if the planner is not defined for
-    /// the problem, `refused` if its answer did not pass the judge, `panicked`.
+    /// the problem, `refused` if its answer did not pass the judge, `panicked`, `failed` if it is another
+    /// program and did not answer as one should.
     pub outcome: String,
     /// Why it ended: `finished`, `iterations`, `evaluations`, `time`; empty without an answer.
     pub stop: String,

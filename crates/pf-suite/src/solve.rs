@@ -9,7 +9,7 @@ use pf_core::{
     Budget, CancelToken, Claims, Context, Cost, Event, Note, Problem, Stats, Stop, Trace,
 };
 use pf_geom::{LENGTH, Objectives, TeamProblem};
-use pf_planners::{Answer, Entry, Order, Refusal, Scene, length, team_planners};
+use pf_planners::{Answer, Entry, FAULT, Order, Refusal, Scene, length, team_planners};
 use pf_render::Recorder;
 use std::{
     any::Any,
@@ -217,10 +217,16 @@ fn on_scene(
     outcome
 }
 
-/// An answer that was refused is told from none.
+/// An answer that was refused, and the fault of a planner in another program, are told from none.
 fn word(answer: &Answer) -> &'static str {
-    let refused = answer.notes.iter().any(|note| note.key == "refused");
-    if refused { "refused" } else { answer.outcome }
+    let has = |key| answer.notes.iter().any(|note| note.key == key);
+    if has(FAULT) {
+        "failed"
+    } else if has("refused") {
+        "refused"
+    } else {
+        answer.outcome
+    }
 }
 
 fn on_team(

@@ -242,6 +242,7 @@ fn planner(
     let entry = find(name.string()?).map_err(|unknown| {
         name.error(match unknown.near() {
             Some(near) => format!("\"{near}\""),
+            None if unknown.known().is_empty() => format!("a program that answers; {unknown}"),
             None => format!("one of {}", unknown.known().join(", ")),
         })
     })?;

@@ -57,6 +57,8 @@ pub struct Done {
     pub panicked: usize,
     /// Those whose answers did not pass the judge.
     pub refused: usize,
+    /// Those in which a planner in another program did not answer as one should.
+    pub failed: usize,
     /// Those that a planner declined.
     pub declined: usize,
 }
@@ -73,6 +75,7 @@ impl Done {
             "panicked" => self.panicked += 1,
             "refused" => self.refused += 1,
             "declined" => self.declined += 1,
+            "failed" => self.failed += 1,
             _ => {}
         }
     }

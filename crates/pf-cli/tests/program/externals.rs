@@ -110,3 +110,50 @@ fn what_it_does_wrong_has_an_exit_code_of_its_own() {
         .says(&["external:/no/such/program", "does not start"]);
     ask("external:").ends(2).says(&["expected a command"]);
 }
+
+#[test]
+fn a_suite_names_programs_that_fail_and_goes_on() {
+    if !python() {
+        return;
+    }
+    // By its argument: a path, a collision, garbage, silence for good, the end.
+    let code = "import json, sys, time\nmode = sys.argv[1]\ninput()\n\
+        print(json.dumps(dict(name='Py', problem='grid')), flush=True)\n\
+        while True:\n q = json.loads(input())\n way = [[0, 0], [1, 0], [2, 0]]\n\
+        \x20if mode == 'jumps': way = [[0, 0], [2, 0]]\n\
+        \x20if mode == 'babbles': print('what?', flush=True)\n\
+        \x20if mode == 'hangs': time.sleep(60)\n\
+        \x20if mode == 'ends': sys.exit(3)\n\
+        \x20print(json.dumps(dict(id=q['id'], outcome='feasible', path=way)), flush=True)\n";
+    let folder = map("...");
+    std::fs::write(folder.path("planner.py"), code).unwrap();
+    let mut suite = "[[problem]]\nfile = \"m.map\"\nfrom = [0, 0]\nto = [2, 0]\n\
+        [[planner]]\nname = \"astar\"\n"
+        .to_owned();
+    let modes = ["works", "jumps", "babbles", "hangs", "ends"];
+    for mode in modes {
+        let file = folder.name("planner.py");
+        suite += "[[planner]]\nset = { limit = 0.7 }\nvariant = \"py\"\n";
+        suite += &["name = \"external:python3 ", &file, " ", mode, "\"\n"].concat();
+    }
+    std::fs::write(folder.path("s.toml"), suite).unwrap();
+    let (suite, out) = (folder.name("s.toml"), folder.name("out"));
+    let run = pf(&["bench", &suite, "-o", &out, "--threads", "2"]).ends(6);
+    assert!(run.out.contains("6 runs, 4 failed"), "{}", run.out);
+    let results = std::fs::read_to_string(folder.path("out/results.csv")).unwrap();
+    for mode in modes {
+        let word = if mode == "works" {
+            "feasible"
+        } else {
+            "failed"
+        };
+        let words = format!("planner.py {mode},py,0,{word},");
+        assert!(results.contains(&words), "no {words} in {results}");
+    }
+    assert!(results.contains(",astar,,0,optimal,"), "{results}");
+    assert!(
+        run.err.contains("hangs py on m, seed 0: failed"),
+        "{}",
+        run.err
+    );
+}

@@ -7,7 +7,10 @@ use super::{
 };
 use crate::{SuiteError, record::Line, statistics::Spread};
 
-/// A figure per problem in which somebody makes whole attempts.
+/// The most figures: nobody looks at more.
+const MOST: usize = 24;
+
+/// A figure for each of the first problems in which somebody makes whole attempts.
 pub(crate) fn figures(data: &Data<'_>) -> Result<Vec<Figure>, SuiteError> {
     let mut figures = Vec::new();
     for (p, problem) in data.problems.iter().enumerate() {
@@ -43,6 +46,9 @@ pub(crate) fn figures(data: &Data<'_>) -> Result<Vec<Figure>, SuiteError> {
             up,
             mark: Some((best, "best known")),
         };
+        if figures.len() == MOST {
+            break;
+        }
         figures.push(Figure {
             name: format!("convergence-{}", file_name(problem)),
             title: format!("Convergence: {problem}"),

@@ -18,6 +18,9 @@ use pf_io::{FileError, write_whole};
 use pf_render::png_of;
 use std::{fs, path::Path};
 
+const UNRANKED: &str = " There are no mean ranks, as there are not two problems in which all \
+                        contenders, and at least two, take part.";
+
 /// A picture with a file's name, as SVG.
 #[derive(Clone, Debug)]
 pub struct Figure {
@@ -57,6 +60,7 @@ impl Report {
             tables::contenders(&data),
             tables::problems(&data),
             tables::pairs(&data),
+            tables::pairs_in_time(&data),
         ];
         if let Some(ranking) = &ranking {
             tables.push(tables::ranks(&data, ranking));
@@ -72,10 +76,11 @@ impl Report {
         Ok(Self {
             title: format!("Report on {}", data.suites.join(", ")),
             words: format!(
-                "{}: {}, {}.",
+                "{}: {}, {}.{}",
                 count(lines.len(), "run"),
                 count(data.problems.len(), "problem"),
-                count(data.contenders.len(), "contender")
+                count(data.contenders.len(), "contender"),
+                if ranking.is_some() { "" } else { UNRANKED }
             ),
             tables,
             figures,

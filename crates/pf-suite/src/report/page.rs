@@ -32,7 +32,7 @@ pub(crate) fn page(report: &Report) -> String {
     };
     table(&mut page, "contenders");
     page.extend(pictures.into_iter().map(drawn));
-    for name in ["ranks", "pairs", "problems"] {
+    for name in ["ranks", "pairs", "pairs-in-time", "problems"] {
         table(&mut page, name);
     }
     page.extend(details.into_iter().map(drawn));

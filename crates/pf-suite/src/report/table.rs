@@ -5,6 +5,11 @@ use crate::folder::cells;
 use comfy_table::{CellAlignment, presets};
 use std::fmt::Write;
 
+/// The most rows on a terminal; in a file for programs there are all.
+const MOST_IN_TEXT: usize = 80;
+/// The most rows on a page.
+const MOST_IN_PAGE: usize = 600;
+
 /// A table with what it shows.
 #[derive(Clone, Debug)]
 pub struct Table {
@@ -32,13 +37,14 @@ impl Table {
         table
             .load_style(presets::UTF8_FULL_CONDENSED)
             .set_header(self.heads.clone());
-        for row in self.shown() {
+        for row in self.shown().take(MOST_IN_TEXT) {
             table.add_row(row);
         }
         for column in table.column_iter_mut().skip(self.names) {
             column.set_cell_alignment(CellAlignment::Right);
         }
-        format!("{}\n{table}\n{}\n", self.title, self.words)
+        let (title, more) = (&self.title, self.more(MOST_IN_TEXT));
+        format!("{title}\n{table}\n{more}{}\n", self.words)
     }
 
     pub(crate) fn html(&self) -> String {
@@ -58,12 +64,21 @@ impl Table {
             format!("<tr>{}</tr>\n", cells.collect::<String>())
         };
         page += &row("th", &mut self.heads.iter().copied());
-        for cells in self.shown() {
+        for cells in self.shown().take(MOST_IN_PAGE) {
             page += &row("td", &mut cells.into_iter());
         }
+        let (more, words) = (self.more(MOST_IN_PAGE), escaped(&self.words));
         // Writing to a string does not fail.
-        let _ = writeln!(page, "</table></div>\n<p>{}</p>", escaped(&self.words));
+        let _ = writeln!(page, "</table></div>\n<p>{more}{words}</p>");
         page
+    }
+
+    /// Where the rows are that are not shown.
+    fn more(&self, most: usize) -> String {
+        match self.rows.len().checked_sub(most) {
+            Some(more @ 1..) => format!("{more} more rows are in {}.csv. ", self.name),
+            _ => String::new(),
+        }
     }
 
     /// The cells as people see them.
