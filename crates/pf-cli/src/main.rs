@@ -4,6 +4,7 @@
 //! 1 internal error, 2 usage, 3 bad input file, 4 proved that there is no path, 5 none found within
 //! the budget, 6 a check failed, 130 interrupted.
 
+mod animate;
 mod args;
 mod demo;
 mod drive;
@@ -48,6 +49,7 @@ Examples:
   pf drive maze.map --sensor 10 --svg drive.svg
   pf walk maps/scenarios/busy-square.toml --png walk.png
   pf team three-robots.toml --prefer safety --svg front.svg
+  pf animate arena.map --from 3,4 --to 60,41 -o search.gif
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed
@@ -66,6 +68,8 @@ enum Verb {
     Walk(walk::Args),
     /// Plan for several robots at once and choose from a front of plans
     Team(team::Args),
+    /// Animate what a planner does, as GIF or as a page with a slider
+    Animate(animate::Args),
     /// Run the experiment of a paper again
     Paper(paper::Args),
     /// Search the weights by which bees walk short ways that arrive
@@ -97,6 +101,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Walk(args) => walk::act(&args, &cancel),
         Verb::Tune(args) => tune::act(&args, &cancel),
         Verb::Team(args) => team::act(&args, &cancel),
+        Verb::Animate(args) => animate::act(&args, &cancel),
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),

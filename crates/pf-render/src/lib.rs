@@ -32,6 +32,7 @@
 //! ([`Picture::rasterised`]).
 
 mod cells;
+mod film;
 mod frame;
 mod page;
 mod palette;
@@ -42,6 +43,7 @@ mod svg;
 mod team;
 mod world;
 
+pub use film::{Ending, Film, Gallery, Look, Reel, Shade, Shot, Thing};
 pub use picture::{Line, Picture};
 pub use png::{NoPicture, png_of};
 pub use recorder::Recorder;

@@ -1,3 +1,4 @@
+use crate::film::tape::{Better, Sample, Tape};
 use pf_core::{Event, Trace};
 use pf_geom::{Point, TeamProblem, WorldProblem};
 use pf_grid::{Cell, GridProblem};
@@ -19,6 +20,7 @@ pub struct Recorder {
     expanded: Vec<Cell>,
     reached: Vec<[f64; 2]>,
     pieces: Vec<[[f64; 2]; 2]>,
+    tape: Option<Tape>,
 }
 
 impl Recorder {
@@ -41,11 +43,30 @@ impl Recorder {
         &self.pieces
     }
 
+    /// One that keeps besides what an animation of so many frames can show: when what was
+    /// expanded, numbers per cell, swarms, attempts, and what was better than all before. Of what
+    /// happens more often than there are frames it keeps a few, spread evenly. `size` is columns and
+    /// rows of the map on which numbers per cell are sampled.
+    #[must_use]
+    pub fn filming(frames: usize, size: [u32; 2]) -> Self {
+        Self {
+            tape: Some(Tape::new(frames, size)),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn tape(&self) -> Option<&Tape> {
+        self.tape.as_ref()
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.expanded.clear();
         self.reached.clear();
         self.pieces.clear();
+        if let Some(tape) = &mut self.tape {
+            *tape = Tape::new(tape.frames, tape.size);
+        }
     }
 }
 
@@ -53,6 +74,30 @@ impl Trace<GridProblem> for Recorder {
     fn event(&mut self, event: &Event<'_, GridProblem>) {
         if let &Event::Expanded(&cell) = event {
             self.expanded.push(cell);
+        }
+        let Some(tape) = &mut self.tape else { return };
+        let now = tape.tick();
+        tape.in_cells = true;
+        let middle = |c: &Cell| [f64::from(c.x) + 0.5, f64::from(c.y) + 0.5];
+        let line = |cells: &[Cell]| cells.iter().map(middle).collect();
+        match event {
+            Event::Expanded(_) => tape.expanded_at.push(now),
+            Event::Candidate(path) => tape.tries.offer(now, || line(path)),
+            Event::Improved(best) => tape.better.offer(now, || Better {
+                line: line(&best.solution),
+                cost: best.cost.value(),
+            }),
+            Event::Field { name, value } => {
+                let (size, block) = (tape.size, tape.block);
+                #[expect(clippy::cast_possible_truncation, reason = "a shade needs no more")]
+                let value = |[x, y]: [u32; 2]| value(&Cell { x, y }) as f32;
+                tape.fields.offer(now, || Sample {
+                    name,
+                    values: Tape::corners(size, block).map(value).collect(),
+                });
+            }
+            Event::Points { name, at } => tape.points.offer(now, || (name, line(at))),
+            _ => {}
         }
     }
 }
@@ -65,7 +110,23 @@ impl Trace<WorldProblem> for Recorder {
             Event::Points {
                 name: "free piece",
                 at: [a, b],
-            } => self.pieces.push([pair(a), pair(b)]),
+            } => {
+                self.pieces.push([pair(a), pair(b)]);
+                return;
+            }
+            _ => {}
+        }
+        let Some(tape) = &mut self.tape else { return };
+        let now = tape.tick();
+        let line = |points: &[Point]| points.iter().map(pair).collect();
+        match event {
+            Event::Expanded(_) => tape.expanded_at.push(now),
+            Event::Candidate(path) => tape.tries.offer(now, || line(path)),
+            Event::Improved(best) => tape.better.offer(now, || Better {
+                line: line(&best.solution),
+                cost: best.cost,
+            }),
+            Event::Points { name, at } => tape.points.offer(now, || (name, line(at))),
             _ => {}
         }
     }
@@ -74,9 +135,25 @@ impl Trace<WorldProblem> for Recorder {
 /// Where robots of the population are, the last that was shown.
 impl Trace<TeamProblem> for Recorder {
     fn event(&mut self, event: &Event<'_, TeamProblem>) {
-        if let Event::Points { at, .. } = event {
-            self.reached.clear();
-            self.reached.extend(at.iter().flatten().map(|p| [p.x, p.y]));
+        let places = |at: &[Vec<Point>]| at.iter().flatten().map(|p| [p.x, p.y]).collect();
+        if let (Event::Points { at, .. }, None) = (event, &self.tape) {
+            self.reached = places(at);
+        }
+        let Some(tape) = &mut self.tape else { return };
+        let now = tape.tick();
+        match event {
+            Event::Points { name, at } => tape.points.offer(now, || (name, places(at))),
+            Event::Improved(best) => tape.better.offer(now, || {
+                let shortest = best.solution.members().first();
+                let path = shortest.and_then(|plan| plan.paths.first());
+                Better {
+                    line: path.map_or(Vec::new(), |path| {
+                        path.iter().map(|p| [p.at.x, p.at.y]).collect()
+                    }),
+                    cost: best.cost.members().first().map_or(f64::NAN, |cost| cost[0]),
+                }
+            }),
+            _ => {}
         }
     }
 }
