@@ -43,7 +43,7 @@ mod svg;
 mod team;
 mod world;
 
-pub use film::{Ending, Film, Gallery, Look, Reel, Shade, Shot, Thing};
+pub use film::{Ending, Film, Found, Gallery, Look, Reel, Shade, Shot, Thing};
 pub use picture::{Line, Picture};
 pub use png::{NoPicture, png_of};
 pub use recorder::Recorder;

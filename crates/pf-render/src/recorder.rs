@@ -96,10 +96,19 @@ impl Trace<GridProblem> for Recorder {
                     values: Tape::corners(size, block).map(value).collect(),
                 });
             }
-            Event::Points { name, at } => tape.points.offer(now, || (name, line(at))),
+            Event::Points { name, at } => tape.points.offer(now, || (name, few(line(at)))),
             _ => {}
         }
     }
+}
+
+/// Points that a frame shows at most.
+const DOTS: usize = 100;
+
+/// Some of many points, evenly.
+fn few(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let step = points.len().div_ceil(DOTS).max(1);
+    points.into_iter().step_by(step).collect()
 }
 
 impl Trace<WorldProblem> for Recorder {
@@ -126,7 +135,7 @@ impl Trace<WorldProblem> for Recorder {
                 line: line(&best.solution),
                 cost: best.cost,
             }),
-            Event::Points { name, at } => tape.points.offer(now, || (name, line(at))),
+            Event::Points { name, at } => tape.points.offer(now, || (name, few(line(at)))),
             _ => {}
         }
     }
@@ -142,7 +151,7 @@ impl Trace<TeamProblem> for Recorder {
         let Some(tape) = &mut self.tape else { return };
         let now = tape.tick();
         match event {
-            Event::Points { name, at } => tape.points.offer(now, || (name, places(at))),
+            Event::Points { name, at } => tape.points.offer(now, || (name, few(places(at)))),
             Event::Improved(best) => tape.better.offer(now, || {
                 let shortest = best.solution.members().first();
                 let path = shortest.and_then(|plan| plan.paths.first());

@@ -18,7 +18,9 @@ pub(crate) fn write(picture: &Picture) -> String {
     let mut body = String::new();
     let mut y = MARGIN + page.map[1] + 10.0;
     scale_bar(&mut body, &page, y);
-    y = legend(&mut body, &picture.legend, &page, y);
+    // The scale bar stands to the right.
+    let right = page.width - MARGIN - page.bar().max(70.0);
+    y = legend(&mut body, &picture.legend, y, right);
     for (i, text) in picture.caption.iter().enumerate() {
         let size = if i == 0 { TITLE } else { FONT };
         y = paragraph(&mut body, &page, y, size, text);
@@ -290,13 +292,11 @@ pub(crate) fn scale_bar(out: &mut String, page: &Page, top: f64) {
     );
 }
 
-/// Swatches and words, in as many lines as they need; returns where it ends.
-pub(crate) fn legend(out: &mut String, entries: &[(Key, String)], page: &Page, top: f64) -> f64 {
-    // The scale bar stands to the right.
-    let right = page.width - MARGIN - page.bar().max(70.0);
+/// Swatches and words, in as many lines as they need up to the right edge; returns where it ends.
+pub(crate) fn legend(out: &mut String, entries: &[(Key, String)], top: f64, right: f64) -> f64 {
     let (mut x, mut y) = (MARGIN, top);
     for (key, words) in entries {
-        let width = 28.0 + text_width(words, FONT);
+        let width = entry_width(words);
         if x > MARGIN && x + width > right {
             x = MARGIN;
             y += LINE_HEIGHT;
@@ -416,6 +416,11 @@ pub(crate) fn paragraph(out: &mut String, page: &Page, top: f64, size: f64, text
         y += size + 6.0;
     }
     y
+}
+
+/// How wide a swatch and its words are.
+pub(crate) fn entry_width(words: &str) -> f64 {
+    28.0 + text_width(words, FONT)
 }
 
 /// About how wide a text is, on the generous side: three widths of letters are enough to place it.

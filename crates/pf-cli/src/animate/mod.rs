@@ -1,9 +1,9 @@
 //! `pf animate`: what a planner does, as a film.
 
 mod drive;
-mod replay;
-mod search;
-mod team;
+pub(crate) mod replay;
+pub(crate) mod search;
+pub(crate) mod team;
 mod walk;
 
 use crate::{

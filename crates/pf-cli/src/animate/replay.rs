@@ -10,7 +10,7 @@ use crate::{
     question::Question,
     report, view, words as say,
 };
-use pf_planners::{Line, Runner};
+use pf_planners::{Line, Order, Runner};
 use pf_render::{Film, Look, Picture, Reel, Thing};
 
 /// Plays a scenario. Each event has as many frames as any other; the path before it stays to be
@@ -30,14 +30,11 @@ pub(crate) fn replay(
         return Err(Failure::usage(message).help("each needs a frame at least"));
     }
     let share = |k: usize| search.frames * (k + 1) / moments - search.frames * k / moments;
-    let (mut reel, mut answer) = {
-        let scene = &question.scene;
-        let ground = view::ground(scene);
-        search.reel(scene, ground, share(0), runner, |runner, order| {
-            runner.plan(scene, order)
-        })?
-    };
-    let mut reels = vec![reel.said("at first: ")];
+    let scene = &question.scene;
+    let plan = |runner: &mut dyn Runner, order: Order<'_>| runner.plan(scene, order);
+    let first = search.reel(scene, view::ground(scene), share(0), runner, plan)?;
+    let mut answer = first.answer;
+    let mut reels = vec![first.reel.said("at first: ")];
     for (k, event) in events.into_iter().enumerate() {
         if search.cancel.is_cancelled() {
             return Ok((Film::new("", reels), Status::Interrupted));
@@ -48,13 +45,14 @@ pub(crate) fn replay(
         let followed = question.scene.change(&event.changes)?;
         let scene = &question.scene;
         let ground: Picture = view::changed(view::ground(scene), &before, scene);
-        (reel, answer) = search.reel(scene, ground, share(k + 1), runner, |runner, order| {
-            runner.replan(scene, &followed, order)
-        })?;
+        let replan =
+            |runner: &mut dyn Runner, order: Order<'_>| runner.replan(scene, &followed, order);
+        let seen = search.reel(scene, ground, share(k + 1), runner, replan)?;
+        answer = seen.answer;
         let what = event
             .name
             .unwrap_or_else(|| say::of(&event.changes, &question.names));
-        reels.push(below(reel, scene, old.as_ref()).said(&format!("{}, {what}: ", event.at)));
+        reels.push(below(seen.reel, scene, old.as_ref()).said(&format!("{}, {what}: ", event.at)));
     }
     let words = format!(
         "{} replans, in the end {}",

@@ -16,6 +16,13 @@ pub(crate) struct Search<'a> {
     pub(crate) frames: usize,
 }
 
+/// What was seen of one call of a planner.
+pub(crate) struct Seen {
+    pub(crate) reel: Reel,
+    pub(crate) answer: Answer,
+    pub(crate) recorder: Recorder,
+}
+
 /// Plans, and shows how.
 pub(crate) fn search(
     search: &Search<'_>,
@@ -23,19 +30,11 @@ pub(crate) fn search(
     runner: &mut dyn Runner,
 ) -> Result<(Film, Answer), Failure> {
     let scene = &question.scene;
-    let (reel, answer) = search.reel(
-        scene,
-        view::ground(scene),
-        search.frames,
-        runner,
-        |runner, order| runner.plan(scene, order),
-    )?;
-    let title = title(
-        runner.name(),
-        question,
-        &words(search.entry, scene, &answer),
-        search.planner.seed,
-    );
+    let ground = view::ground(scene);
+    let plan = |runner: &mut dyn Runner, order: Order<'_>| runner.plan(scene, order);
+    let Seen { reel, answer, .. } = search.reel(scene, ground, search.frames, runner, plan)?;
+    let words = words(search.entry, scene, &answer);
+    let title = title(runner.name(), question, &words, search.planner.seed);
     Ok((Film::new(title, vec![reel]), answer))
 }
 
@@ -48,7 +47,7 @@ impl Search<'_> {
         frames: usize,
         runner: &mut dyn Runner,
         act: impl FnOnce(&mut dyn Runner, Order<'_>) -> Result<Answer, Refusal>,
-    ) -> Result<(Reel, Answer), Failure> {
+    ) -> Result<Seen, Failure> {
         let cells = self.cells(scene)?;
         let mut recorder = Recorder::filming(frames, cells.size());
         let answer = act(runner, self.planner.order(self.cancel, Some(&mut recorder)))?;
@@ -70,10 +69,12 @@ impl Search<'_> {
         };
         let [from, to] = view::end_points(scene);
         let reel = Reel::of(ground).ends(from, to);
-        Ok((
-            reel.search(&recorder, frames, |cell| cells.is_free(cell), &ending),
+        let reel = reel.search(&recorder, frames, |cell| cells.is_free(cell), &ending);
+        Ok(Seen {
+            reel,
             answer,
-        ))
+            recorder,
+        })
     }
 
     /// What the planner calls cells.

@@ -96,7 +96,8 @@ impl Gallery {
         for (k, ground) in self.grounds.iter().enumerate() {
             let _ = write!(grounds, "<g id=\"ground{k}\">{ground}</g>");
         }
-        let (style, player) = (include_str!("player.css"), include_str!("player.js"));
+        let style = include_str!("player.css");
+        let player = concat!(include_str!("player.js"), include_str!("front.js"));
         let (title, shades) = (svg::escaped(title), shades());
         format!(
             "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n\
@@ -127,8 +128,7 @@ impl Parts {
 }
 
 fn figure(film: &Film, page: &Page, data: &Value) -> String {
-    let [w, h] = page.map.map(|side| side + 2.0 * RIM);
-    let view = format!("{} {} {w:.2} {h:.2}", -RIM, -RIM);
+    let (view, [w, h]) = view(page);
     let count = film.frames();
     let last = count.saturating_sub(1);
     let things = last_things(data);
@@ -137,11 +137,13 @@ fn figure(film: &Film, page: &Page, data: &Value) -> String {
         .and_then(|all| all.last()?.as_str());
     // JSON may hold what ends a script.
     let json = data.to_string().replace("</", "<\\/");
+    // A picture has nothing to play.
+    let hidden = if count < 2 { " hidden" } else { "" };
     format!(
         "<figure class=\"film\">\n<div class=\"stage\" style=\"max-width:{w:.0}px;aspect-ratio:{w:.2}/{h:.2}\">\
          <svg viewBox=\"{view}\" role=\"img\" aria-label=\"{}\"><use href=\"{}\"/></svg>{}\
          <svg viewBox=\"{view}\" aria-hidden=\"true\">{things}</svg></div>\n\
-         <p class=\"words\"></p>\n<div class=\"controls\"><button type=\"button\">Play</button>\
+         <p class=\"words\"></p>\n<div class=\"controls\"{hidden}><button type=\"button\">Play</button>\
          <input type=\"range\" min=\"0\" max=\"{last}\" value=\"{last}\" aria-label=\"frame\"></div>\n\
          <figcaption>{}{}</figcaption>\n<script type=\"application/json\">{json}</script>\n</figure>\n",
         svg::escaped(&film.title).replace('"', "&quot;"),
@@ -150,6 +152,12 @@ fn figure(film: &Film, page: &Page, data: &Value) -> String {
         svg::escaped(&film.title),
         legend(&film.legend(), page),
     )
+}
+
+/// What of a page is seen, and how wide and high that is.
+pub(crate) fn view(page: &Page) -> (String, [f64; 2]) {
+    let [w, h] = page.map.map(|side| side + 2.0 * RIM);
+    (format!("{} {} {w:.2} {h:.2}", -RIM, -RIM), [w, h])
 }
 
 /// What is on top in the last frame, for those without scripts.

@@ -4,6 +4,7 @@
 //! [`Film::html`] writes a page that does; both show the same. What lies still is drawn once; a
 //! [`Shot`] says which cells change their shade and which few things are on top.
 
+mod front;
 mod gif;
 mod html;
 mod quantise;
@@ -14,6 +15,7 @@ pub(crate) mod tape;
 mod team;
 mod thing;
 
+pub use front::Found;
 pub use html::Gallery;
 pub use search::Ending;
 pub use shade::Shade;
@@ -87,6 +89,34 @@ impl Film {
     #[must_use]
     pub fn frames(&self) -> usize {
         self.reels.iter().map(|reel| reel.shots.len()).sum()
+    }
+
+    /// The last frame of a reel, as a film of its own that says so in these words; `None` if there
+    /// is none.
+    #[must_use]
+    pub fn still(&self, reel: usize, title: impl Into<String>) -> Option<Self> {
+        let reel = self.reels.get(reel)?;
+        let mut last = reel.shots.last()?.clone();
+        last.cells = reel
+            .shots
+            .iter()
+            .flat_map(|shot| shot.cells.iter().copied())
+            .collect();
+        // Of several shades of a cell the last counts.
+        last.cells.reverse();
+        let mut seen = std::collections::BTreeSet::new();
+        last.cells.retain(|(cell, _)| seen.insert((cell.y, cell.x)));
+        let still = Reel {
+            shots: vec![last],
+            ..reel.clone()
+        };
+        Some(Self::new(title, vec![still]))
+    }
+
+    /// How many reels it has.
+    #[must_use]
+    pub fn reels(&self) -> usize {
+        self.reels.len()
     }
 
     /// What the colours mean, in all reels.

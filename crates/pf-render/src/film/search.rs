@@ -25,8 +25,10 @@ pub struct Ending {
     pub window: Option<f64>,
 }
 
+/// Points of a world that are shown of all that were expanded, about.
+const DOTS: usize = 600;
 /// Attempts that are seen at a time.
-const TRIES: usize = 6;
+const TRIES: usize = 4;
 
 impl Reel {
     /// As many frames of what a recorder for animations has heard: first the search, then the
@@ -53,6 +55,11 @@ impl Reel {
             told: 0,
             dots: Vec::new(),
         };
+        // What comes before the first iterate is a search for where to begin.
+        let first = match tape.tries.all().first() {
+            Some((at, _)) if ending.iterates => at - 1,
+            _ => 0,
+        };
         let tail = match (tape.now, &ending.line) {
             (0, _) => frames,
             (_, Some(_)) => (frames / 5).max(1),
@@ -60,7 +67,7 @@ impl Reel {
         };
         let searching = frames.saturating_sub(tail);
         for k in 1..=searching {
-            let shot = play.at(&reel, part(tape.now, k, searching));
+            let shot = play.at(&reel, first + part(tape.now - first, k, searching));
             reel.push(shot);
         }
         for k in 1..=frames.min(tail) {
@@ -86,16 +93,11 @@ impl Reel {
         if let Some(words) = levels.words(tape) {
             self = self.key(Key::Ramp(&palette::LEVELS), &words);
         }
-        if !recorder.reached().is_empty() {
-            let (look, words) = match ending.window {
-                Some(_) => (Look::Best, "walked"),
-                None => (Look::Sensor, "expanded"),
+        if !recorder.reached().is_empty() && !ending.iterates {
+            self = match ending.window {
+                Some(_) => self.explain(Look::Best, "walked"),
+                None => self.explain(Look::Reached, "expanded"),
             };
-            let key = match ending.window {
-                Some(_) => look.key(),
-                None => Key::Dot(palette::HEAT[6]),
-            };
-            self = self.key(key, words);
         }
         if ending.window.is_some() {
             self = self.explain(Look::Sensor, "what the robot sees");
@@ -192,11 +194,13 @@ impl Play<'_> {
             );
         } else if let Some(new) = reached.get(self.told..count)
             && !new.is_empty()
+            && !self.ending.iterates
         {
-            let points = new.to_vec();
+            let step = reached.len().div_ceil(DOTS);
+            let points = new.iter().step_by(step).copied().collect();
             self.dots.push(Thing::Dots {
                 points,
-                look: Look::Sensor,
+                look: Look::Reached,
             });
         }
         self.told = count.max(self.told);
@@ -243,16 +247,20 @@ impl Play<'_> {
 
     fn words(&self, now: u64) -> String {
         let mut words = Vec::new();
-        if !self.tape.expanded_at.is_empty() {
-            let (what, count) = match self.ending.window {
-                Some(_) => ("steps", self.told),
-                None => ("expanded", self.told),
-            };
-            words.push(format!("{} {what}", grouped(count)));
+        if !self.tape.expanded_at.is_empty() && !self.ending.iterates {
+            words.push(match self.ending.window {
+                Some(_) => counted(self.told, "step"),
+                None => format!("{} expanded", grouped(self.told)),
+            });
         }
         let tried = self.tape.tries.offered(now);
         if tried > 0 {
-            words.push(format!("{} attempts", grouped(tried)));
+            let what = if self.ending.iterates {
+                "iterate"
+            } else {
+                "attempt"
+            };
+            words.push(counted(tried, what));
         }
         if let Some((_, better)) = self.tape.better.until(now).last() {
             words.push(format!("best {:.2}", better.cost));
@@ -329,6 +337,12 @@ fn part(all: u64, k: usize, of: usize) -> u64 {
     u64::try_from(share).unwrap_or(all)
 }
 
+/// So many of something.
+fn counted(n: usize, what: &str) -> String {
+    let many = if n == 1 { "" } else { "s" };
+    format!("{} {what}{many}", grouped(n))
+}
+
 /// With a comma at every third digit.
 fn grouped(n: usize) -> String {
     let digits = n.to_string();
@@ -397,15 +411,23 @@ impl Levels {
 
     fn words(&self, tape: &Tape) -> Option<String> {
         let (_, sample) = tape.fields.all().first()?;
-        let scale = if self.log { ", log scale" } else { "" };
+        let scale = if self.log { " (log)" } else { "" };
+        // As many digits as tell the two apart.
+        let apart = (self.high - self.low)
+            .max(f64::MIN_POSITIVE)
+            .log10()
+            .floor();
         let number = |x: f64| {
-            if x.abs() >= 100.0 || x.fract().abs() < 1e-9 {
-                format!("{x:.0}")
-            } else if x.abs() >= 0.01 {
-                format!("{x:.2}")
-            } else {
-                format!("{x:.1e}")
+            if x != 0.0 && x.abs() < 0.01 {
+                return format!("{x:.1e}");
             }
+            #[expect(
+                clippy::cast_possible_truncation,
+                clippy::cast_sign_loss,
+                reason = "a few digits"
+            )]
+            let digits = (1.0 - apart).clamp(0.0, 6.0) as usize;
+            format!("{x:.digits$}")
         };
         let (low, high) = (number(self.low), number(self.high));
         Some(format!("{} {low} to {high}{scale}", sample.name))

@@ -17,7 +17,7 @@ impl Reel {
                 .push(Thing::GoalOf(k, [robot.goal.x, robot.goal.y]));
             reel = reel.explain(Look::Robot(k), &format!("robot {}", k + 1));
         }
-        let ways: Vec<Thing> = plan
+        let mut ways: Vec<Thing> = plan
             .paths
             .iter()
             .map(|path| Thing::Line {
@@ -25,6 +25,11 @@ impl Reel {
                 look: Look::Try,
             })
             .collect();
+        for (k, robot) in problem.robots().iter().enumerate() {
+            let at = [robot.start.x, robot.start.y];
+            let (radius, look) = (robot.radius, Look::Robot(k));
+            ways.push(Thing::Ring { at, radius, look });
+        }
         let duration = plan.duration();
         for k in 0..frames {
             #[expect(clippy::cast_precision_loss, reason = "a number of frames")]

@@ -24,6 +24,8 @@ pub enum Look {
     Robot(usize),
     /// Bees, particles, members of a population.
     Swarm,
+    /// Points of a world that a search has expanded.
+    Reached,
     /// The range of a sensor.
     Sensor,
 }
@@ -88,13 +90,14 @@ impl Look {
             Self::Answer => palette::PATHS[0],
             Self::Planned => palette::DASHED,
             Self::Robot(k) => palette::ROBOTS[k % palette::ROBOTS.len()],
+            Self::Reached => palette::HEAT[6],
             Self::Sensor => palette::GOAL,
         }
     }
 
     pub(crate) fn key(self) -> Key {
         match self {
-            Self::Swarm => Key::Dot(self.colour()),
+            Self::Swarm | Self::Reached => Key::Dot(self.colour()),
             Self::Robot(_) => Key::Disc(self.colour()),
             Self::Sensor => Key::Window(self.colour()),
             Self::Planned => Key::Line(self.colour(), Line::Dashed),
@@ -161,13 +164,14 @@ impl Thing {
     }
 }
 
-/// Steps from point to point are shorter to write than points.
+/// Steps from point to point are shorter to write than points, and on a grid they are whole cells.
 fn line(out: &mut String, page: &Page, points: &[[f64; 2]], look: Look) {
+    let unit = if page.frame.cells { page.scale } else { 1.0 };
     let mut data = String::new();
     let mut last = [0, 0];
     for (k, &point) in points.iter().enumerate() {
         #[expect(clippy::cast_possible_truncation, reason = "casts of floats saturate")]
-        let at = page.place(point).map(|x| (x * 10.0).round() as i64);
+        let at = page.place(point).map(|x| (x / unit * 10.0).round() as i64);
         let step = [at[0] - last[0], at[1] - last[1]];
         if k > 0 && step == [0, 0] {
             continue;
@@ -181,30 +185,40 @@ fn line(out: &mut String, page: &Page, points: &[[f64; 2]], look: Look) {
         last = at;
     }
     let (colour, pen) = (look.colour(), page.pen);
-    let _ = match look {
-        Look::Try => write!(
-            out,
-            r#"<path fill="none" stroke="{colour}" stroke-opacity=".6" d="{data}"/>"#
-        ),
-        Look::Planned => write!(
-            out,
-            r#"<path fill="none" stroke="{colour}" stroke-width="{}" stroke-dasharray="{} {}" d="{data}"/>"#,
-            short(pen * 0.75),
-            short(pen * 2.0),
-            short(pen * 1.5)
-        ),
-        Look::Robot(_) => write!(
-            out,
-            r#"<path fill="none" stroke="{colour}" stroke-width="{}" stroke-linejoin="round" d="{data}"/>"#,
-            short(pen * 0.6)
-        ),
-        _ => write!(
-            out,
-            r##"<g fill="none" stroke-linejoin="round" stroke-linecap="round"><path stroke="#fff" stroke-opacity=".8" stroke-width="{}" d="{data}"/><path stroke="{colour}" stroke-width="{}" d="{data}"/></g>"##,
-            short(pen + 2.0),
-            short(pen)
-        ),
+    let wide = |width: f64| short(width / unit);
+    let (how, width) = match look {
+        Look::Try => (" stroke-opacity=\".6\"".to_owned(), 1.0),
+        Look::Planned => {
+            let (dash, gap) = (wide(pen * 2.0), wide(pen * 1.5));
+            (format!(" stroke-dasharray=\"{dash} {gap}\""), pen * 0.75)
+        }
+        Look::Robot(_) => (String::new(), pen * 0.6),
+        _ => {
+            let rim = wide(pen + 2.0);
+            let _ = write!(
+                out,
+                "<path {} stroke=\"#fff\" stroke-opacity=\".8\" stroke-width=\"{rim}\" d=\"{data}\"/>",
+                scaled(unit)
+            );
+            (String::new(), pen)
+        }
     };
+    let _ = write!(
+        out,
+        "<path {} stroke=\"{colour}\"{how} stroke-width=\"{}\" d=\"{data}\"/>",
+        scaled(unit),
+        wide(width)
+    );
+}
+
+/// What lines in this unit have in common.
+fn scaled(unit: f64) -> String {
+    let scale = if (unit - 1.0).abs() < 1e-12 {
+        String::new()
+    } else {
+        format!(" transform=\"scale({})\"", (unit * 1e4).round() / 1e4)
+    };
+    format!("fill=\"none\" stroke-linejoin=\"round\" stroke-linecap=\"round\"{scale}")
 }
 
 /// Tenths, as a decimal number of as few letters as possible.
