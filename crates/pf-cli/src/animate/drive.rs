@@ -118,7 +118,7 @@ fn reel(driven: &Driven, truth: &GridProblem, sensor: f64, frames: usize, radius
         let mut shot = Shot::default();
         if k == 0 {
             shot.cells
-                .extend(grid.layout().cells().map(|cell| (cell, Shade::UNSEEN)));
+                .extend(reel.tiles().map(|cell| (cell, Shade::UNSEEN)));
         }
         for &at in &trail[shown..=step] {
             look(grid, at, sensor, &mut seen, &mut shot);

@@ -114,21 +114,21 @@ pub(crate) type Shown = (Film, Status);
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
     let form = form(&args.out)?;
+    has_folder(&args.out)?;
     let (film, status) = film(args, cancel)?;
     if cancel.is_cancelled() {
         return Ok(Status::Interrupted);
     }
     let bytes = match form {
         Form::Gif => {
-            let gif = film.gif(args.size.0, args.fps);
+            let gif = film.gif_while(args.size.0, args.fps, || !cancel.is_cancelled());
+            if cancel.is_cancelled() {
+                return Ok(Status::Interrupted);
+            }
             gif.map_err(|error| Failure::Internal(error.to_string()))?
         }
         Form::Html => film.html(args.size.0, args.fps).into_bytes(),
     };
-    // The last moment at which it is worth listening.
-    if cancel.is_cancelled() {
-        return Ok(Status::Interrupted);
-    }
     let stored = write_whole(&args.out, |out| out.write_all(&bytes));
     stored.map_err(|error| Failure::unwritten(&error))?;
     let (frames, place, size) = (
@@ -149,6 +149,19 @@ fn form(out: &Path) -> Result<Form, Failure> {
             let message = format!("--out {}: not the name of an animation", out.display());
             Err(Failure::usage(message).help("names end in .gif or .html"))
         }
+    }
+}
+
+/// Says before any work is done that a file cannot be written where there is no folder.
+fn has_folder(out: &Path) -> Result<(), Failure> {
+    let folder = out.parent().filter(|folder| *folder != Path::new(""));
+    match folder {
+        Some(folder) if !folder.is_dir() => {
+            let (file, folder) = (out.display(), folder.display());
+            let message = format!("{file} cannot be written: there is no folder {folder}");
+            Err(Failure::Internal(message))
+        }
+        _ => Ok(()),
     }
 }
 

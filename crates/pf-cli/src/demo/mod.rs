@@ -40,7 +40,7 @@ use std::{
 /// team's front shows its plan. DIR also has a picture of every path, as SVG.
 ///
 /// The maps are part of the program. Planners that never know that they are done stop after 60 ms, and
-/// planners for teams after 2,000 evaluations: enough to see what they do, not what they can do.
+/// planners for teams after 5,000 evaluations: enough to see what they do, not what they can do.
 #[derive(clap::Args)]
 #[command(after_help = "\
 Examples:
@@ -56,7 +56,7 @@ const REPETITIONS: usize = 3;
 /// For planners that never know that they are done.
 const PATIENCE: Duration = Duration::from_millis(60);
 /// For planners of teams.
-const EVALUATIONS: &str = "2000";
+const EVALUATIONS: &str = "5000";
 /// Frames of a planner's film, and of a scenario's.
 const FRAMES: usize = 24;
 const PLAY_FRAMES: usize = 45;
@@ -160,7 +160,6 @@ impl Show {
             self.about,
         );
         page.table(&HEADER, &rows);
-        page.gap();
         page.cards(&films);
         Ok(Some(rows))
     }
@@ -203,7 +202,11 @@ impl Show {
                 answer.stats.elapsed = answer.stats.elapsed.min(again.stats.elapsed);
             }
         }
-        let title = format!("{}: {}, seed 0", runner.name(), words(entry, scene, &answer));
+        let title = format!(
+            "{}: {}, seed 0",
+            runner.name(),
+            words(entry, scene, &answer)
+        );
         let told = Told {
             entry,
             question,
@@ -314,13 +317,15 @@ fn team(page: &mut Page, cancel: &CancelToken) -> Result<Vec<Row>, Failure> {
         ),
     );
     page.table(&TEAM_HEADER, &rows);
-    page.gap();
     let knee = fronts
         .first()
         .and_then(|f| Preference::Knee.choose(f.costs.members()));
     if let (Some(knee), Some(found)) = (knee, fronts.first()) {
         page.fronts(&problem, &fronts, (0, knee));
-        let title = format!("{}: the plan at the knee of its front, driven, seed 0", found.name);
+        let title = format!(
+            "{}: the plan at the knee of its front, driven, seed 0",
+            found.name
+        );
         page.film(&film(
             title,
             &problem,

@@ -36,26 +36,22 @@ impl Page {
         self.raw(&format!("<h2>{title}</h2>\n<p>{about}</p>\n"));
     }
 
+    /// A table without its first column, which the heading says.
     pub(super) fn table(&mut self, header: &[&str], rows: &[Row]) {
         let mut out = "<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"table\"><table><thead><tr>".to_owned();
-        for cell in header {
+        for cell in &header[1..] {
             let _ = write!(out, "<th scope=\"col\">{}</th>", escaped(cell));
         }
         out.push_str("</tr></thead><tbody>");
         for row in rows {
             out.push_str("<tr>");
-            for cell in row {
+            for cell in &row[1..] {
                 let _ = write!(out, "<td>{}</td>", escaped(cell));
             }
             out.push_str("</tr>");
         }
-        out.push_str("</tbody></table></div>\n");
+        out.push_str("</tbody></table></div>\n<p></p>\n");
         self.raw(&out);
-    }
-
-    /// Room below a table.
-    pub(super) fn gap(&mut self) {
-        self.raw("<p></p>\n");
     }
 
     /// Films side by side.

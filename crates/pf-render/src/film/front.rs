@@ -57,7 +57,7 @@ impl Gallery {
         };
         let marks = marks.0;
         let picture = Picture::of_world(problem.world(), 0.0);
-        let page = Page::fitting(picture.frame, [460.0, 460.0], 460.0);
+        let page = Page::fitting(picture.frame, [400.0, 400.0], 400.0);
         let mut ground = String::new();
         svg::ground(&mut ground, &picture, &page);
         let ground = self.ground(ground);
@@ -84,14 +84,14 @@ impl Gallery {
             );
         }
         format!(
-            "<figure class=\"front\">\n<div class=\"sides\"><div class=\"charts\">{}</div>\n\
+            "<figure class=\"front\">\n<div class=\"sides\"><div>\
              <div class=\"stage\" style=\"max-width:{w:.0}px;aspect-ratio:{w:.2}/{h:.2}\"><svg viewBox=\"{view}\" role=\"img\" aria-label=\"the world of the team\"><use href=\"#ground{ground}\"/></svg>\
-             <svg class=\"plan\" viewBox=\"{view}\" aria-hidden=\"true\">{}</svg></div></div>\n\
-             <p class=\"words\" aria-live=\"polite\">{}</p>\n<figcaption>{names}</ul></figcaption>\n\
+             <svg class=\"plan\" viewBox=\"{view}\" aria-hidden=\"true\">{}</svg></div>\n\
+             <p class=\"words\" aria-live=\"polite\">{}</p></div><div class=\"charts\">{}{names}</ul></div></div>\n\
              <script type=\"application/json\">{}</script>\n</figure>\n",
-            charts.concat(),
             drawn(problem, marks[start].plan, &page),
             svg::escaped(&marks[start].words),
+            charts.concat(),
             data.replace("</", "<\\/")
         )
     }

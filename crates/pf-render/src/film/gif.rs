@@ -25,12 +25,31 @@ impl Film {
     /// # Errors
     /// [`NoPicture`] if there is no frame, or one cannot be drawn.
     pub fn gif(&self, size: [u16; 2], fps: f64) -> Result<Vec<u8>, NoPicture> {
+        self.gif_while(size, fps, || true)
+    }
+
+    /// The same as long as it is wanted, which is asked at every frame.
+    ///
+    /// # Errors
+    /// As [`gif`](Self::gif), and if it is not wanted any more.
+    pub fn gif_while(
+        &self,
+        size: [u16; 2],
+        fps: f64,
+        wanted: impl Fn() -> bool,
+    ) -> Result<Vec<u8>, NoPicture> {
         let frames = self.frames();
         let mut census = Census::new();
         let every = frames.div_ceil(SAMPLES).max(1);
         // The last frame of each stretch: there is most to see in it.
         let sampled = |k: usize| (k + 1) % every == 0 || k + 1 == frames;
-        Painter::of(self, size)?.play(sampled, |_, pixels| {
+        let go_on = || {
+            let stopped = || NoPicture("it is not wanted any more".to_owned());
+            wanted().then_some(()).ok_or_else(stopped)
+        };
+        let painter = Painter::of(self, size)?;
+        painter.play(sampled, |_, pixels| {
+            go_on()?;
             census.take(pixels.data());
             Ok(())
         })?;
@@ -41,9 +60,10 @@ impl Film {
         let mut encoder = Encoder::new(&mut out, size[0], size[1], &colours).map_err(bad)?;
         encoder.set_repeat(Repeat::Infinite).map_err(bad)?;
         let mut before: Vec<u8> = Vec::new();
-        Painter::of(self, size)?.play(
+        painter.play(
             |_| true,
             |k, pixels| {
+                go_on()?;
                 let colour = |&[r, g, b, _]: &[u8; 4]| palette.of([r, g, b]);
                 let now: Vec<u8> = pixels.data().as_chunks().0.iter().map(colour).collect();
                 let mut frame = difference(&before, &now, size);
@@ -229,3 +249,66 @@ fn whole(x: f64) -> usize {
 }
 
 const _: () = assert!(quantise::COLOURS == CLEAR as usize);
+
+#[cfg(test)]
+mod tests {
+    use crate::{Film, Look, Picture, Reel, Shade, Shot, Thing};
+    use gif::{ColorOutput, DecodeOptions};
+    use pf_grid::{Cell, Grid};
+
+    /// A robot that steps east and colours the cell it was in.
+    fn film(frames: u32) -> Film {
+        let mut reel = Reel::of(Picture::of(&Grid::open(frames, 3).unwrap()));
+        for x in 0..frames {
+            let look = Look::Robot(0);
+            let at = [f64::from(x) + 0.5, 1.5];
+            reel.push(Shot {
+                cells: vec![(Cell::new(x, 1), Shade::level(1.0))],
+                things: vec![Thing::Disc {
+                    at,
+                    radius: 0.3,
+                    look,
+                }],
+                words: String::new(),
+            });
+        }
+        Film::new("a robot steps east", vec![reel])
+    }
+
+    #[test]
+    fn frames_hold_only_what_changed() {
+        let gif = film(8).gif([320, 200], 7.0).unwrap();
+        let mut options = DecodeOptions::new();
+        options.set_color_output(ColorOutput::Indexed);
+        let mut decoder = options.read_info(&gif[..]).unwrap();
+        let mut sizes = Vec::new();
+        let mut delays = 0;
+        while let Some(frame) = decoder.read_next_frame().unwrap() {
+            sizes.push(u32::from(frame.width) * u32::from(frame.height));
+            delays += frame.delay;
+        }
+        assert_eq!((sizes.len(), sizes[0]), (8, 320 * 200));
+        // Two cells of 38 pixels.
+        assert!(sizes[1..].iter().all(|&size| size < 4000), "{sizes:?}");
+        // Seven frames a second in whole hundredths: they add up.
+        assert_eq!(delays, 100 + 200);
+    }
+
+    #[test]
+    fn it_ends_when_it_is_not_wanted() {
+        let film = film(8);
+        assert!(film.gif_while([320, 200], 7.0, || false).is_err());
+        assert!(
+            Film::new("nothing", Vec::new())
+                .gif([320, 200], 7.0)
+                .is_err()
+        );
+    }
+
+    #[test]
+    fn every_size_is_drawn() {
+        for size in [[120, 120], [1000, 120], [120, 1000]] {
+            assert!(film(60).gif(size, 10.0).is_ok(), "{size:?}");
+        }
+    }
+}

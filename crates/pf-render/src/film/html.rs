@@ -7,10 +7,12 @@ use crate::{
     svg,
 };
 use serde_json::{Value, json};
-use std::fmt::Write;
+use std::{collections::BTreeMap, fmt::Write};
 
 /// Room around a map, for markers that stick out.
 const RIM: f64 = 9.0;
+/// A figure's width at least, for its slider and legend, if the screen is as wide.
+const NARROWEST: f64 = 300.0;
 
 /// Films and other figures of one page, which share what lies still below them.
 ///
@@ -23,7 +25,7 @@ const RIM: f64 = 9.0;
 /// let mut gallery = Gallery::default();
 /// let figure = gallery.film(&Film::new("nothing", vec![reel]), [480, 360], 10.0);
 /// let page = gallery.page("A page", &format!("<h1>A page</h1>{figure}"));
-/// assert!(page.contains("<figure class=\"film\"") && !page.contains("https:"));
+/// assert!(page.contains("<figure class=\"film\" ") && !page.contains("https:"));
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Gallery {
@@ -62,10 +64,12 @@ impl Gallery {
             let top = reel.top.iter().map(|thing| parts.number(thing.svg(&page)));
             tops.push(top.collect::<Vec<_>>());
             for shot in &reel.shots {
-                let changes = shot
-                    .cells
-                    .iter()
-                    .filter_map(|&(cell, shade)| Some((shade.0, reel.block_of(cell)?)));
+                // Of several shades of a block the last counts.
+                let blocks = shot.cells.iter();
+                let changes: BTreeMap<u32, u8> = blocks
+                    .filter_map(|&(cell, shade)| Some((reel.block_of(cell)?, shade.0)))
+                    .collect();
+                let changes = changes.into_iter().map(|(block, shade)| (shade, block));
                 let things = shot
                     .things
                     .iter()
@@ -113,7 +117,7 @@ impl Gallery {
 #[derive(Default)]
 struct Parts {
     all: Vec<String>,
-    sorted: std::collections::BTreeMap<String, usize>,
+    sorted: BTreeMap<String, usize>,
 }
 
 impl Parts {
@@ -140,12 +144,13 @@ fn figure(film: &Film, page: &Page, data: &Value) -> String {
     // A picture has nothing to play.
     let hidden = if count < 2 { " hidden" } else { "" };
     format!(
-        "<figure class=\"film\">\n<div class=\"stage\" style=\"max-width:{w:.0}px;aspect-ratio:{w:.2}/{h:.2}\">\
+        "<figure class=\"film\" style=\"max-width:{:.0}px\">\n<div class=\"stage\" style=\"max-width:{w:.0}px;aspect-ratio:{w:.2}/{h:.2}\">\
          <svg viewBox=\"{view}\" role=\"img\" aria-label=\"{}\"><use href=\"{}\"/></svg>{}\
          <svg viewBox=\"{view}\" aria-hidden=\"true\">{things}</svg></div>\n\
          <p class=\"words\"></p>\n<div class=\"controls\"{hidden}><button type=\"button\">Play</button>\
          <input type=\"range\" min=\"0\" max=\"{last}\" value=\"{last}\" aria-label=\"frame\"></div>\n\
          <figcaption>{}{}</figcaption>\n<script type=\"application/json\">{json}</script>\n</figure>\n",
+        w.max(NARROWEST),
         svg::escaped(&film.title).replace('"', "&quot;"),
         ground.unwrap_or_default(),
         canvas(film, page, [w, h]),

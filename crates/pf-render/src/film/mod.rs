@@ -196,6 +196,14 @@ impl Reel {
         self
     }
 
+    /// A cell of every part of the map that has a shade of its own: all, unless the map is large.
+    pub fn tiles(&self) -> impl Iterator<Item = Cell> + use<> {
+        let [columns, rows] = self.blocks;
+        let side = self.block;
+        let cell = move |x, y| Cell::new(x * side, y * side);
+        (0..rows).flat_map(move |y| (0..columns).map(move |x| cell(x, y)))
+    }
+
     /// The number of the block in which a cell lies; `None` outside the map.
     pub(crate) fn block_of(&self, cell: Cell) -> Option<u32> {
         let (x, y) = (cell.x / self.block, cell.y / self.block);

@@ -65,13 +65,20 @@ impl Reel {
             (_, Some(_)) => (frames / 5).max(1),
             (_, None) => (frames / 12).max(1),
         };
-        let searching = frames.saturating_sub(tail);
+        // What happens in fewer moments than there are frames needs no more of them.
+        let moments = usize::try_from(tape.now - first).unwrap_or(usize::MAX);
+        let searching = frames.saturating_sub(tail).min(moments);
+        let tail = frames - searching;
         for k in 1..=searching {
             let shot = play.at(&reel, first + part(tape.now - first, k, searching));
             reel.push(shot);
         }
-        for k in 1..=frames.min(tail) {
-            let mut shot = play.cells_at(&reel, tape.now);
+        for k in 1..=tail {
+            // Who has no answer is seen as it stood when it gave up.
+            let mut shot = match ending.line {
+                Some(_) => play.cells_at(&reel, tape.now),
+                None => play.at(&reel, tape.now),
+            };
             #[expect(clippy::cast_precision_loss, reason = "a number of frames")]
             play.finish(&mut shot, k as f64 / tail as f64);
             reel.push(shot);
@@ -389,7 +396,10 @@ impl Levels {
         let Some(last) = values.len().checked_sub(1) else {
             return levels;
         };
-        let (low, high) = (values[last / 50], values[last - last / 50]);
+        let (mut low, mut high) = (values[last / 50], values[last - last / 50]);
+        if low >= high {
+            (low, high) = (values[0], values[last]);
+        }
         (levels.low, levels.high) = (f64::from(low), f64::from(high));
         levels.log = low > 0.0 && high / low > 50.0;
         levels
