@@ -1,10 +1,13 @@
 //! A robot with a sensor in a grid that it does not know.
 
 use crate::{
-    animate::{Args, Shown, step_of, title},
+    animate::{
+        Args, Shown,
+        search::{brief, counted},
+        step_of, title,
+    },
     drive,
     failure::{Failure, Status},
-    text,
 };
 use pf_core::{CancelToken, Context, Outcome, Replanner, Report, Stop};
 use pf_grid::{Advance, Cell, Drive, Grid, GridProblem};
@@ -35,10 +38,11 @@ pub(super) fn film(args: &Args, sensor: f64, cancel: &CancelToken) -> Result<Sho
     let start = Drive::new(scene.problem(), sensor)?;
     let driven = run(start, planner.as_mut(), context)?;
     let replans = driven.plans.len().saturating_sub(1);
-    let cost = text::number(driven.drive.cost().value());
+    let cost = brief(driven.drive.cost().value());
     let words = format!(
-        "{}, cost {cost}, {replans} replans, sensor {sensor}",
-        driven.words
+        "{}, cost {cost}, {}, sensor {sensor}",
+        driven.words,
+        counted(replans, "replan")
     );
     let name = planner.name().to_owned();
     let reel = reel(
@@ -184,10 +188,10 @@ fn things(driven: &Driven, step: usize, sensor: f64, radius: f64, shot: &mut Sho
         radius,
         look: Look::Answer,
     });
-    let replans = plan.unwrap_or(0);
-    shot.words = format!("step {step} of {}, {replans} replans", trail.len() - 1);
+    let replans = counted(plan.unwrap_or(0), "replan");
+    shot.words = format!("step {step} of {}, {replans}", trail.len() - 1);
     if step + 1 == trail.len() {
-        shot.words = format!("{} after {step} steps, {replans} replans", driven.words);
+        shot.words = format!("{} after {step} steps, {replans}", driven.words);
     }
 }
 

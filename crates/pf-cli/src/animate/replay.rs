@@ -3,7 +3,7 @@
 use crate::{
     animate::{
         Shown,
-        search::{Search, words},
+        search::{Search, counted, words},
         title,
     },
     failure::{Failure, Status},
@@ -55,8 +55,8 @@ pub(crate) fn replay(
         reels.push(below(seen.reel, scene, old.as_ref()).said(&format!("{}, {what}: ", event.at)));
     }
     let words = format!(
-        "{} replans, in the end {}",
-        moments - 1,
+        "{}, in the end {}",
+        counted(moments - 1, "replan"),
         words(search.entry, &question.scene, &answer)
     );
     let title = title(runner.name(), &question, &words, search.planner.seed);

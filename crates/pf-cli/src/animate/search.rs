@@ -129,6 +129,17 @@ impl Cells<'_> {
     }
 }
 
+/// A cost or a length, as exact as a picture is.
+pub(crate) fn brief(x: f64) -> String {
+    text::number((x * 100.0).round() / 100.0)
+}
+
+/// So many of something.
+pub(crate) fn counted(n: usize, what: &str) -> String {
+    let many = if n == 1 { "" } else { "s" };
+    format!("{} {what}{many}", text::count(n as u64))
+}
+
 /// How it ended, in a few words.
 pub(crate) fn words(entry: &dyn AnyEntry, scene: &Scene, answer: &Answer) -> String {
     let what = match scene {
@@ -136,7 +147,7 @@ pub(crate) fn words(entry: &dyn AnyEntry, scene: &Scene, answer: &Answer) -> Str
         _ => "length",
     };
     match answer.costs.first() {
-        Some(&cost) => format!("{}, {what} {}", answer.outcome, text::number(cost)),
+        Some(&cost) => format!("{}, {what} {}", answer.outcome, brief(cost)),
         None => answer.outcome.to_owned(),
     }
 }

@@ -1,12 +1,13 @@
 //! Robots of a team in time.
 
 use crate::{
-    animate::{Args, Shown},
+    animate::{Args, Shown, search::brief},
     failure::{Failure, Status},
-    team, text,
+    team,
 };
 use pf_core::{CancelToken, Outcome, Stop};
 use pf_geom::{TeamPlan, TeamProblem, Timing};
+use pf_moabc::Preference;
 use pf_render::{Film, Picture, Reel, Shot};
 
 pub(super) fn act(args: &Args, cancel: &CancelToken) -> Result<Shown, Failure> {
@@ -37,13 +38,23 @@ pub(super) fn act(args: &Args, cancel: &CancelToken) -> Result<Shown, Failure> {
         return Ok((Film::new(title, vec![reel]), status));
     };
     let title = format!(
-        "{name} on {file}: the plan for {} of {count}, length {}, clearance {}, turning {:.0} deg, seed {seed}",
-        args.prefer.word(),
-        text::number(length),
-        text::number(problem.ease() - danger),
+        "{name} on {file}: {} of {count} plans: length {}, clearance {}, turning {:.0} deg, seed {seed}",
+        best_for(args.prefer),
+        brief(length),
+        brief(problem.ease() - danger),
         turning.to_degrees(),
     );
     Ok((film(title, &problem, plan, frames), status))
+}
+
+/// What the preferred plan is.
+fn best_for(preference: Preference) -> &'static str {
+    match preference {
+        Preference::Length => "shortest",
+        Preference::Safety => "safest",
+        Preference::Smooth => "smoothest",
+        Preference::Knee => "knee",
+    }
 }
 
 /// A plan, driven.

@@ -43,16 +43,21 @@ fn animate(question: &[&str], more: &[&str], out: &str) -> Run {
     pf(&[verb, question, more, how].concat())
 }
 
-/// Pixels of every frame as it is seen, and how long it stays, in hundredths of a second.
-fn frames(path: &Path) -> ([u16; 2], Vec<(Vec<[u8; 4]>, u16)>) {
+/// A frame as it is seen, and how long it stays, in hundredths of a second.
+type Seen = (Vec<[u8; 4]>, u16);
+
+/// Width and height, and every frame.
+fn frames(path: &Path) -> ([u16; 2], Vec<Seen>) {
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::RGBA);
-    let mut decoder = options.read_info(fs::File::open(path).unwrap()).unwrap();
+    let mut decoder = options
+        .read_info(fs::File::open(path).expect("a file"))
+        .expect("a GIF");
     let (width, height) = (decoder.width(), decoder.height());
     let wide = usize::from(width);
     let mut seen = vec![[0; 4]; wide * usize::from(height)];
     let mut all = Vec::new();
-    while let Some(frame) = decoder.read_next_frame().unwrap() {
+    while let Some(frame) = decoder.read_next_frame().expect("whole frames") {
         let pixels = frame.buffer.as_chunks::<4>().0;
         for (k, pixel) in pixels.iter().enumerate() {
             let (x, y) = (k % usize::from(frame.width), k / usize::from(frame.width));

@@ -42,7 +42,7 @@ impl Film {
         let mut census = Census::new();
         let every = frames.div_ceil(SAMPLES).max(1);
         // The last frame of each stretch: there is most to see in it.
-        let sampled = |k: usize| (k + 1) % every == 0 || k + 1 == frames;
+        let sampled = |k: usize| (k + 1).is_multiple_of(every) || k + 1 == frames;
         let go_on = || {
             let stopped = || NoPicture("it is not wanted any more".to_owned());
             wanted().then_some(()).ok_or_else(stopped)

@@ -181,7 +181,7 @@ fn last_things(data: &Value) -> String {
 }
 
 /// The canvas of cells, where they lie on the map, if any frame has some.
-fn canvas(film: &Film, page: &Page, [w, h]: [f64; 2]) -> String {
+fn canvas(film: &Film, page: &Page, whole: [f64; 2]) -> String {
     let reels = || film.reels.iter();
     if reels().all(|reel| reel.shots.iter().all(|shot| shot.cells.is_empty())) {
         return String::new();
@@ -189,11 +189,15 @@ fn canvas(film: &Film, page: &Page, [w, h]: [f64; 2]) -> String {
     let Some(reel) = reels().next() else {
         return String::new();
     };
-    let ([x, y], side) = reel.lattice();
+    let (corner, side) = reel.lattice();
     let [columns, rows] = reel.blocks;
-    let far = [x + side * f64::from(columns), y + side * f64::from(rows)];
-    let (a, b) = (page.place([x, y]), page.place(far));
-    let (left, top) = (a[0] + RIM, a[1].min(b[1]) + RIM);
+    let far = [
+        corner[0] + side * f64::from(columns),
+        corner[1] + side * f64::from(rows),
+    ];
+    let ends = [page.place(corner), page.place(far)];
+    let top = ends[0][1].min(ends[1][1]);
+    let part = |length: f64, axis: usize| 100.0 * length / whole[axis];
     let flip = if page.up() {
         ";transform:scaleY(-1)"
     } else {
@@ -201,10 +205,10 @@ fn canvas(film: &Film, page: &Page, [w, h]: [f64; 2]) -> String {
     };
     format!(
         "<canvas width=\"{columns}\" height=\"{rows}\" style=\"left:{:.4}%;top:{:.4}%;width:{:.4}%;height:{:.4}%{flip}\"></canvas>",
-        100.0 * left / w,
-        100.0 * top / h,
-        100.0 * (b[0] - a[0]) / w,
-        100.0 * (b[1] - a[1]).abs() / h
+        part(ends[0][0] + RIM, 0),
+        part(top + RIM, 1),
+        part(ends[1][0] - ends[0][0], 0),
+        part((ends[1][1] - ends[0][1]).abs(), 1),
     )
 }
 

@@ -56,21 +56,22 @@ impl Reel {
             dots: Vec::new(),
         };
         // What comes before the first iterate is a search for where to begin.
-        let first = match tape.tries.all().first() {
-            Some((at, _)) if ending.iterates => at - 1,
-            _ => 0,
+        let tries = tape.tries.all();
+        let (first, last, moments) = match (tries.first(), tries.last()) {
+            (Some((first, _)), Some((last, _))) if ending.iterates => {
+                (first - 1, *last, tries.len())
+            }
+            _ => (0, tape.now, usize::try_from(tape.now).unwrap_or(usize::MAX)),
         };
-        let tail = match (tape.now, &ending.line) {
-            (0, _) => frames,
-            (_, Some(_)) => (frames / 5).max(1),
-            (_, None) => (frames / 12).max(1),
+        let tail = match &ending.line {
+            Some(_) => (frames / 5).max(1),
+            None => (frames / 12).max(1),
         };
         // What happens in fewer moments than there are frames needs no more of them.
-        let moments = usize::try_from(tape.now - first).unwrap_or(usize::MAX);
         let searching = frames.saturating_sub(tail).min(moments);
         let tail = frames - searching;
         for k in 1..=searching {
-            let shot = play.at(&reel, first + part(tape.now - first, k, searching));
+            let shot = play.at(&reel, first + part(last - first, k, searching));
             reel.push(shot);
         }
         for k in 1..=tail {
@@ -161,10 +162,12 @@ impl Play<'_> {
                 look: Look::Try,
             });
         }
+        // Of a planner that announces one solution alone, that is the answer.
+        let several = self.tape.better.all().len() > 1;
         let best = match self.tape.better.until(now).last() {
-            Some((_, better)) => Some(&better.line),
+            Some((_, better)) if several => Some(&better.line),
             None if self.ending.iterates => tries.last().map(|(_, line)| line),
-            None => None,
+            _ => None,
         };
         if let Some(line) = best.filter(|line| line.len() > 1) {
             things.push(Thing::Line {
@@ -269,7 +272,10 @@ impl Play<'_> {
             };
             words.push(counted(tried, what));
         }
-        if let Some((_, better)) = self.tape.better.until(now).last() {
+        if let (Some((_, better)), true) = (
+            self.tape.better.until(now).last(),
+            self.tape.better.all().len() > 1,
+        ) {
             words.push(format!("best {:.2}", better.cost));
         }
         words.join(", ")
@@ -451,9 +457,9 @@ mod tests {
     #[test]
     fn a_line_is_followed_by_its_length() {
         let line = [[0.0, 0.0], [2.0, 0.0], [2.0, 2.0]];
-        let ends = |part| up_to(&line, part).last().copied().unwrap();
-        assert_eq!(ends(0.25), [1.0, 0.0]);
-        assert_eq!(ends(0.75), [2.0, 1.0]);
+        let ends = |part| up_to(&line, part).last().unwrap().map(f64::to_bits);
+        assert_eq!(ends(0.25), [1.0, 0.0].map(f64::to_bits));
+        assert_eq!(ends(0.75), [2.0, 1.0].map(f64::to_bits));
         assert_eq!(up_to(&line, 1.0), line);
         assert_eq!(up_to(&[], 0.5), Vec::<[f64; 2]>::new());
     }
