@@ -61,6 +61,7 @@ impl Reel {
             (Some((first, _)), Some((last, _))) if ending.iterates => {
                 (first - 1, *last, tries.len())
             }
+            _ if ending.iterates => (0, tape.now, 0),
             _ => (0, tape.now, usize::try_from(tape.now).unwrap_or(usize::MAX)),
         };
         let tail = match &ending.line {

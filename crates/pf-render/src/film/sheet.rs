@@ -106,10 +106,12 @@ impl Sheet {
     /// What is over it in a frame.
     pub(crate) fn moving(&self, things: &str, words: &str) -> String {
         let mut out = self.open();
-        let [x, y] = self.corner;
+        // What sticks out of the map is cut, but for markers at its edge.
+        let [x, y] = self.corner.map(|at| at - ROOM);
+        let [w, h] = self.page.map.map(|side| side + 2.0 * ROOM);
         let _ = write!(
             out,
-            r#"<g transform="translate({x} {y})">{things}</g><text x="{}" y="{}" font-size="{}">{}</text></svg>"#,
+            r#"<svg x="{x}" y="{y}" width="{w}" height="{h}"><g transform="translate({ROOM} {ROOM})">{things}</g></svg><text x="{}" y="{}" font-size="{}">{}</text></svg>"#,
             MARGIN * TEXT,
             self.words,
             WORDS * TEXT,
