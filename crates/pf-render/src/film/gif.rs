@@ -135,15 +135,21 @@ struct Painter<'a> {
     film: &'a Film,
     sheet: Sheet,
     drawer: Drawer,
+    /// What lies still, by reel.
+    grounds: Vec<Pixmap>,
 }
 
 impl<'a> Painter<'a> {
     fn of(film: &'a Film, size: [u16; 2]) -> Result<Self, NoPicture> {
         let sheet = Sheet::of(film, size.map(f64::from));
+        let sheet = sheet.ok_or_else(|| NoPicture("there are no frames".to_owned()))?;
+        let drawer = Drawer::new();
+        let grounds = (0..film.reels.len()).map(|reel| drawer.pixels(&sheet.still(film, reel)));
         Ok(Self {
             film,
-            sheet: sheet.ok_or_else(|| NoPicture("there are no frames".to_owned()))?,
-            drawer: Drawer::new(),
+            grounds: grounds.collect::<Result<_, _>>()?,
+            sheet,
+            drawer,
         })
     }
 
@@ -154,15 +160,14 @@ impl<'a> Painter<'a> {
         mut show: impl FnMut(usize, &Pixmap) -> Result<(), NoPicture>,
     ) -> Result<(), NoPicture> {
         let mut number = 0;
-        for (r, reel) in self.film.reels.iter().enumerate() {
-            let ground = self.drawer.pixels(&self.sheet.still(self.film, r))?;
+        for (reel, ground) in self.film.reels.iter().zip(&self.grounds) {
             let mut cells = ground.clone();
             let tiles = Tiles::of(&self.sheet, reel);
             let top: String = reel.top.iter().map(|t| t.svg(&self.sheet.page)).collect();
             for shot in &reel.shots {
                 for &(cell, shade) in &shot.cells {
                     if let Some(block) = reel.block_of(cell) {
-                        tiles.paint(&mut cells, &ground, block, shade);
+                        tiles.paint(&mut cells, ground, block, shade);
                     }
                 }
                 if wanted(number) {
