@@ -6,6 +6,7 @@
 
 mod animate;
 mod args;
+mod bench;
 mod demo;
 mod drive;
 mod explain;
@@ -50,6 +51,7 @@ Examples:
   pf walk maps/scenarios/busy-square.toml --png walk.png
   pf team three-robots.toml --prefer safety --svg front.svg
   pf animate arena.map --from 3,4 --to 60,41 -o search.gif
+  pf bench maps/suites/grid-small.toml -o runs
 
 Exit codes:
   0 ok              3 bad input file                6 a check failed
@@ -70,6 +72,8 @@ enum Verb {
     Team(team::Args),
     /// Animate what a planner does, as GIF or as a page with a slider
     Animate(animate::Args),
+    /// Run a suite of problems and planners, and report on its runs
+    Bench(bench::Args),
     /// Run the experiment of a paper again
     Paper(paper::Args),
     /// Search the weights by which bees walk short ways that arrive
@@ -102,6 +106,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Tune(args) => tune::act(&args, &cancel),
         Verb::Team(args) => team::act(&args, &cancel),
         Verb::Animate(args) => animate::act(&args, &cancel),
+        Verb::Bench(args) => bench::act(&args, &cancel),
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),
         Verb::Demo(args) => demo::act(&args, &cancel),

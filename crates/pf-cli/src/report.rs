@@ -9,9 +9,8 @@ use crate::{
     view::{self, Shown},
 };
 use pf_core::{Note, Stats, Stop};
-use pf_geom::{Point as GeomPoint, Segment, World, world_of};
-use pf_grid::{Cell, Clearance};
-use pf_planners::{Answer, AnyEntry, FAULT, Line, Scene};
+pub(crate) use pf_planners::length;
+use pf_planners::{Answer, AnyEntry, FAULT, Line, Ruler, Scene};
 use pf_render::{Line as Pen, Picture};
 use serde::{Serialize, Serializer};
 use std::io::Write;
@@ -96,21 +95,6 @@ pub(crate) fn status(answer: &Answer) -> Status {
     }
 }
 
-/// The length of a line, in the map's unit.
-pub(crate) fn length(line: &Line) -> f64 {
-    // Straight and diagonal steps apart, so that no rounding adds up.
-    let (mut diagonal, mut other) = (0u32, 0.0);
-    for pair in line.windows(2) {
-        let (dx, dy) = (pair[1][0] - pair[0][0], pair[1][1] - pair[0][1]);
-        if dx.abs().total_cmp(&1.0).is_eq() && dy.abs().total_cmp(&1.0).is_eq() {
-            diagonal += 1;
-        } else {
-            other += dx.hypot(dy);
-        }
-    }
-    other + f64::from(diagonal) * std::f64::consts::SQRT_2
-}
-
 impl Told<'_> {
     fn line(&self) -> Option<&Line> {
         self.answer.lines.first()
@@ -156,19 +140,7 @@ impl Told<'_> {
     /// either. A path from cell to cell is measured in the cells' middles.
     fn clearance(&self) -> Option<f64> {
         let line = self.line()?;
-        let least = match self.scene() {
-            Scene::Grid(scene) if !self.is_converted() => {
-                let clearance = Clearance::of(scene.map());
-                let along = line.iter().map(|&p| clearance.at(cell(p)));
-                along.fold(f64::INFINITY, f64::min)
-            }
-            Scene::Grid(scene) => {
-                let points = view::on_picture(self.scene(), line);
-                clearance_of(&world_of(scene.map()), &points)
-            }
-            Scene::World(scene) => clearance_of(scene.world(), line),
-        };
-        least.is_finite().then_some(least)
+        Ruler::default().clearance(self.scene(), line, self.is_converted())
     }
 
     fn all_notes(&self) -> Vec<String> {
@@ -326,24 +298,6 @@ impl Told<'_> {
 }
 
 /// The least distance between a line and the obstacles of a world; infinite if there are none.
-fn clearance_of(world: &World, line: &[[f64; 2]]) -> f64 {
-    let point = |[x, y]: [f64; 2]| GeomPoint::new(x, y);
-    let piece = |k: usize| {
-        let next = line[(k + 1).min(line.len() - 1)];
-        world.clearance(&Segment::new(point(line[k]), point(next)))
-    };
-    (0..line.len()).map(piece).fold(f64::INFINITY, f64::min)
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "points of a line on a grid lie in cells"
-)]
-fn cell([x, y]: [f64; 2]) -> Cell {
-    Cell::new(x as u32, y as u32)
-}
-
 fn meaning(answer: &Answer) -> &'static str {
     match (answer.outcome, answer.stop) {
         ("optimal", _) => "optimal: proved that no path costs less",

@@ -324,6 +324,7 @@ impl<'a, P: Problem> Context<'a, P> {
             self.stats.first_solution = Some(self.elapsed());
         }
         if let Some(trace) = &mut self.trace {
+            trace.spent(&self.stats);
             trace.event(&Event::Improved(&best()));
         }
     }

@@ -308,6 +308,9 @@ impl<P: Problem> Debug for Event<'_, P> {
 pub trait Trace<P: Problem> {
     /// Receives one event.
     fn event(&mut self, event: &Event<'_, P>);
+
+    /// Receives what planning has taken so far, right before each [`Event::Improved`].
+    fn spent(&mut self, _stats: &Stats) {}
 }
 
 impl<P: Problem, F: FnMut(&Event<'_, P>)> Trace<P> for F {

@@ -43,7 +43,8 @@ enum Fault {
 }
 
 impl FileError {
-    pub(crate) fn new(
+    /// About the content of a file.
+    pub fn new(
         file: &str,
         place: Place,
         found: impl Into<String>,
@@ -59,7 +60,9 @@ impl FileError {
         }
     }
 
-    pub(crate) fn io(file: &Path, verb: &'static str, source: io::Error) -> Self {
+    /// About a file that the system would not have read, written or made: `verb` says which.
+    #[must_use]
+    pub fn io(file: &Path, verb: &'static str, source: io::Error) -> Self {
         Self {
             file: file.display().to_string(),
             place: Place::Whole,

@@ -38,7 +38,7 @@ mod ros;
 mod scen;
 pub mod scenario;
 mod source;
-mod toml_tree;
+pub mod toml_tree;
 pub mod world;
 mod write;
 

@@ -166,12 +166,12 @@ fn parse<C: Query>(
         title: own("title")?,
         source: own("source")?,
         provenance: own("provenance")?,
-        time: one_of(&top, "time", &units)?.unwrap_or_default(),
+        time: top.one_of("time", &units)?.unwrap_or_default(),
         cases: Vec::new(),
     };
     let sorts = [("blocked", Unknown::Blocked), ("free", Unknown::Free)];
     let options = LoadOptions {
-        unknown: one_of(&top, "unknown", &sorts)?.unwrap_or_default(),
+        unknown: top.one_of("unknown", &sorts)?.unwrap_or_default(),
         ..LoadOptions::default()
     };
     let mut maps = Maps {
@@ -270,21 +270,4 @@ fn events<C>(
         events.push(event);
     }
     Ok(events)
-}
-
-/// A word out of a list, if the key is there.
-fn one_of<T: Copy>(
-    table: &Table<'_>,
-    key: &str,
-    known: &[(&str, T)],
-) -> Result<Option<T>, FileError> {
-    let Some(value) = table.get(key) else {
-        return Ok(None);
-    };
-    let word = value.string()?;
-    if let Some((_, meaning)) = known.iter().find(|(name, _)| *name == word) {
-        return Ok(Some(*meaning));
-    }
-    let names: Vec<&str> = known.iter().map(|(name, _)| *name).collect();
-    Err(value.error(format!("one of {}", names.join(", "))))
 }

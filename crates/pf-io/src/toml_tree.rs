@@ -1,13 +1,22 @@
-//! TOML values that know their place, and errors that name it.
+//! TOML values that know their place, and errors that name it: for formats that are read elsewhere.
+//!
+//! ```
+//! use pf_io::toml_tree::TomlText;
+//!
+//! let text = TomlText::new("tea.toml", b"cups = 3\nsuger = 1\n")?;
+//! let error = text.read_with("a recipe", |root| root.with_keys(&["cups", "sugar"])?.needed("cups", "how many")?.count("cups"));
+//! assert_eq!(error.unwrap_err().to_string(), r#"tea.toml:2:1: found the key "suger", expected "sugar""#);
+//! # Ok::<(), pf_io::FileError>(())
+//! ```
 
 use crate::{
     FileError, Place,
     error::quoted,
-    source::{Source, place_of},
+    source::{self, Source, place_of},
 };
 use pf_geom::Point;
 use pf_grid::Cell;
-use std::ops::Range;
+use std::{ops::Range, path::Path};
 use toml::{
     Spanned,
     de::{DeTable, DeValue},
@@ -27,7 +36,7 @@ pub(crate) struct File<'a> {
 
 /// A table whose keys are known.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Table<'a> {
+pub struct Table<'a> {
     file: File<'a>,
     span: (usize, usize),
     entries: &'a DeTable<'a>,
@@ -35,10 +44,65 @@ pub(crate) struct Table<'a> {
 
 /// A value and its place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Value<'a> {
+pub struct Value<'a> {
     file: File<'a>,
     span: (usize, usize),
     content: &'a DeValue<'a>,
+}
+
+/// A TOML file in memory.
+#[derive(Clone, Debug)]
+pub struct TomlText {
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl TomlText {
+    /// Of a file.
+    ///
+    /// # Errors
+    /// [`FileError`] if it cannot be read.
+    pub fn read(path: &Path) -> Result<Self, FileError> {
+        Ok(Self {
+            name: path.display().to_string(),
+            bytes: source::read(path)?,
+        })
+    }
+
+    /// Of bytes; `name` is for errors.
+    ///
+    /// # Errors
+    /// [`FileError`] if they are no text.
+    pub fn new(name: impl Into<String>, bytes: impl Into<Vec<u8>>) -> Result<Self, FileError> {
+        let (name, bytes) = (name.into(), bytes.into());
+        let source = Source {
+            name: &name,
+            bytes: &bytes,
+        };
+        source.text()?;
+        Ok(Self { name, bytes })
+    }
+
+    /// Hands the whole to a reader; `expected` says what the file should be.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is no TOML, or the reader's own.
+    pub fn read_with<R>(
+        &self,
+        expected: &str,
+        read: impl FnOnce(Table<'_>) -> Result<R, FileError>,
+    ) -> Result<R, FileError> {
+        let source = Source {
+            name: &self.name,
+            bytes: &self.bytes,
+        };
+        let file = File {
+            source,
+            text: source.text()?,
+        };
+        let root = file.parse(expected)?;
+        read(Table::root(file, &root))
+    }
 }
 
 impl<'a> File<'a> {
@@ -74,7 +138,10 @@ impl<'a> Table<'a> {
     }
 
     /// Refuses every key that is not among `keys`.
-    pub(crate) fn with_keys(self, keys: &[&str]) -> Result<Self, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn with_keys(self, keys: &[&str]) -> Result<Self, FileError> {
         // Tables are sorted by key: the first unknown one by place is the one to name.
         let unknown = self
             .entries
@@ -92,23 +159,54 @@ impl<'a> Table<'a> {
         Err(self.file.source.error(place, found, expected))
     }
 
-    pub(crate) fn get(&self, key: &str) -> Option<Value<'a>> {
+    /// The value of a key, if it is there.
+    #[must_use]
+    pub fn get(&self, key: &str) -> Option<Value<'a>> {
         let value = self.entries.get(key)?;
         Some(Value::new(self.file, value))
     }
 
-    pub(crate) fn needed(&self, key: &str, expected: &str) -> Result<Value<'a>, FileError> {
+    /// The value of a key; `expected` says what it is for.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is not there.
+    pub fn needed(&self, key: &str, expected: &str) -> Result<Value<'a>, FileError> {
         let missing = || self.error(format!("no \"{key}\""), format!("\"{key}\": {expected}"));
         self.get(key).ok_or_else(missing)
     }
 
+    /// What a word under a key stands for, if the key is there.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is none of these words.
+    pub fn one_of<T: Copy>(&self, key: &str, words: &[(&str, T)]) -> Result<Option<T>, FileError> {
+        let Some(value) = self.get(key) else {
+            return Ok(None);
+        };
+        let word = value.string()?;
+        let known = words.iter().find(|(known, _)| *known == word);
+        known.map(|(_, meaning)| Some(*meaning)).ok_or_else(|| {
+            let words: Vec<_> = words.iter().map(|(word, _)| *word).collect();
+            value.error(match nearest(word, words.iter().copied()) {
+                Some(near) => format!("\"{near}\" (one of {})", words.join(", ")),
+                None => format!("one of {}", words.join(", ")),
+            })
+        })
+    }
+
     /// A string, if the key is there.
-    pub(crate) fn string(&self, key: &str) -> Result<Option<&'a str>, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn string(&self, key: &str) -> Result<Option<&'a str>, FileError> {
         self.get(key).map(|value| value.string()).transpose()
     }
 
     /// What something is called, if it has a name.
-    pub(crate) fn name(&self) -> Result<Option<String>, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if the name is no string or empty.
+    pub fn name(&self) -> Result<Option<String>, FileError> {
         let Some(value) = self.get("name") else {
             return Ok(None);
         };
@@ -118,8 +216,31 @@ impl<'a> Table<'a> {
         }
     }
 
+    /// Its keys, each with its value and an error about the key itself, sorted.
+    pub fn entries(&self) -> impl Iterator<Item = (&'a str, Value<'a>)> + use<'a> {
+        let file = self.file;
+        let entry = move |(key, value): (&'a Spanned<_>, _)| {
+            let key: &'a std::borrow::Cow<'a, str> = key.get_ref();
+            (key.as_ref(), Value::new(file, value))
+        };
+        self.entries.iter().map(entry)
+    }
+
+    /// An error about a key that is there.
+    #[must_use]
+    pub fn key_error(&self, key: &str, expected: impl Into<String>) -> FileError {
+        let found = self.entries.get_key_value(key);
+        let at = found.map_or(self.span.0, |(key, _)| key.span().start);
+        let found = format!("the key {}", quoted(key));
+        let place = self.file.place(at);
+        self.file.source.error(place, found, expected)
+    }
+
     /// Tables under a key: one, several or none.
-    pub(crate) fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn tables(&self, key: &str) -> Result<Vec<Table<'a>>, FileError> {
         match self.get(key) {
             None => Ok(Vec::new()),
             Some(value) if value.content.is_table() => Ok(vec![value.table()?]),
@@ -128,7 +249,7 @@ impl<'a> Table<'a> {
     }
 
     /// An error about the table as a whole.
-    pub(crate) fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> FileError {
+    pub fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> FileError {
         let place = self.file.place(self.span.0);
         self.file.source.error(place, found, expected)
     }
@@ -145,7 +266,7 @@ impl<'a> Value<'a> {
     }
 
     /// An error about this value, quoting it.
-    pub(crate) fn error(&self, expected: impl Into<String>) -> FileError {
+    pub fn error(&self, expected: impl Into<String>) -> FileError {
         let text = self.file.text.get(self.span.0..self.span.1).unwrap_or("");
         let found = quoted(text);
         self.file
@@ -153,11 +274,19 @@ impl<'a> Value<'a> {
             .error(self.file.place(self.span.0), found, expected)
     }
 
-    pub(crate) fn string(&self) -> Result<&'a str, FileError> {
+    /// A string.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn string(&self) -> Result<&'a str, FileError> {
         self.content.as_str().ok_or_else(|| self.error("a string"))
     }
 
-    pub(crate) fn table(&self) -> Result<Table<'a>, FileError> {
+    /// A table.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn table(&self) -> Result<Table<'a>, FileError> {
         let entries = self
             .content
             .as_table()
@@ -169,10 +298,11 @@ impl<'a> Value<'a> {
         })
     }
 
-    pub(crate) fn array(
-        &self,
-        of: &str,
-    ) -> Result<impl Iterator<Item = Value<'a>> + use<'a>, FileError> {
+    /// The members of an array.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn array(&self, of: &str) -> Result<impl Iterator<Item = Value<'a>> + use<'a>, FileError> {
         let expected = || self.error(format!("an array of {of}"));
         let array = self.content.as_array().ok_or_else(expected)?;
         let file = self.file;
@@ -180,7 +310,10 @@ impl<'a> Value<'a> {
     }
 
     /// A coordinate or a size in a world, whole or not.
-    pub(crate) fn number(&self, what: &str) -> Result<f64, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn number(&self, what: &str) -> Result<f64, FileError> {
         let number = match self.content {
             DeValue::Integer(n) if n.radix() == 10 => n.as_str().parse().ok(),
             DeValue::Integer(n) => u32::from_str_radix(n.as_str(), n.radix())
@@ -195,7 +328,10 @@ impl<'a> Value<'a> {
     }
 
     /// A number from 0 in a world, whole or not.
-    pub(crate) fn size(&self, what: &str) -> Result<f64, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn size(&self, what: &str) -> Result<f64, FileError> {
         let number = self.number(what)?;
         if number >= 0.0 {
             return Ok(number);
@@ -204,7 +340,10 @@ impl<'a> Value<'a> {
     }
 
     /// A point `[x, y]` of a world.
-    pub(crate) fn point(&self, what: &str) -> Result<Point, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn point(&self, what: &str) -> Result<Point, FileError> {
         match self.content.as_array() {
             Some(numbers) if numbers.len() == 2 => {
                 let mut numbers = numbers.iter().map(|n| Value::new(self.file, n));
@@ -215,8 +354,38 @@ impl<'a> Value<'a> {
         }
     }
 
+    /// A number, a word or a truth value as it would be written on a command line.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is an array, a table or a date.
+    pub fn scalar(&self) -> Result<String, FileError> {
+        match self.content {
+            DeValue::Integer(n) if n.radix() == 10 => Ok(n.as_str().to_owned()),
+            DeValue::Float(n) => Ok(n.as_str().to_owned()),
+            DeValue::Boolean(truth) => Ok(truth.to_string()),
+            DeValue::String(text) => Ok(text.to_string()),
+            _ => Err(self.error("a number, a string, true or false")),
+        }
+    }
+
+    /// Whether it is an array.
+    #[must_use]
+    pub fn is_array(&self) -> bool {
+        self.content.is_array()
+    }
+
+    /// `true` or `false`.
+    ///
+    /// # Errors
+    /// [`FileError`] if it is neither.
+    pub fn truth(&self) -> Result<bool, FileError> {
+        let truth = self.content.as_bool();
+        truth.ok_or_else(|| self.error("true or false"))
+    }
+
     /// A whole number from 0 that counts things in memory.
-    pub(crate) fn index(&self) -> Option<usize> {
+    #[must_use]
+    pub fn index(&self) -> Option<usize> {
         match self.content {
             DeValue::Integer(n) => usize::from_str_radix(n.as_str(), n.radix()).ok(),
             _ => None,
@@ -224,7 +393,10 @@ impl<'a> Value<'a> {
     }
 
     /// A number from 0, whole or not.
-    pub(crate) fn amount(&self, what: &str) -> Result<f64, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn amount(&self, what: &str) -> Result<f64, FileError> {
         let number = match self.content {
             DeValue::Integer(n) => i64::from_str_radix(n.as_str(), n.radix())
                 .ok()
@@ -239,7 +411,10 @@ impl<'a> Value<'a> {
     }
 
     /// A whole number from 0.
-    pub(crate) fn count(&self, what: &str) -> Result<u32, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn count(&self, what: &str) -> Result<u32, FileError> {
         let number = match self.content {
             DeValue::Integer(n) => u32::from_str_radix(n.as_str(), n.radix()).ok(),
             _ => None,
@@ -248,7 +423,10 @@ impl<'a> Value<'a> {
     }
 
     /// A cell `[x, y]` of a map of this size.
-    pub(crate) fn cell(&self, size: (u32, u32)) -> Result<Cell, FileError> {
+    ///
+    /// # Errors
+    /// [`FileError`] if it is something else.
+    pub fn cell(&self, size: (u32, u32)) -> Result<Cell, FileError> {
         let (corner, _) = self.rectangle(size)?;
         match self.content.as_array() {
             Some(numbers) if numbers.len() == 2 => Ok(corner),
@@ -293,7 +471,8 @@ impl<'a> Value<'a> {
 }
 
 /// The one of `known` that someone who wrote `word` may have meant.
-pub(crate) fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> Option<&'k str> {
+#[must_use]
+pub fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> Option<&'k str> {
     let by_distance = known.map(|known| (strsim::damerau_levenshtein(known, word), known));
     let (distance, nearest) = by_distance.min()?;
     (distance <= 2).then_some(nearest)

@@ -8,12 +8,12 @@ pub mod cabc;
 pub mod faustino;
 pub mod kim;
 pub mod page;
-mod parallel;
 mod plot;
 pub mod redlarski;
 pub mod row;
-pub mod statistics;
 pub mod wang;
+
+use pf_suite::{parallel, statistics};
 
 /// Why an experiment could not be run or reported.
 #[derive(Debug, thiserror::Error)]

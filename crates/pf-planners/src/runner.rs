@@ -1,7 +1,7 @@
 use crate::{Changes, Conversion, Found, FromScene, Line, Posed, Scene};
 use pf_core::{
-    Budget, Claims, Clock, Context, InvalidProblem, Note, Outcome, Problem, Replanner, Report,
-    Stats, Stop, Trace, Unsupported,
+    Budget, Claims, Clock, Context, Cost, InvalidProblem, Note, Outcome, Problem, Replanner,
+    Report, Solved, Stats, Stop, Trace, Unsupported,
 };
 use pf_geom::Raster;
 use pf_render::Recorder;
@@ -123,6 +123,18 @@ where
     }
 }
 
+/// What is wrong with a solution, whatever its planner says of it.
+fn lie<P: Problem>(problem: &P, solved: &Solved<P>) -> Option<String> {
+    match problem.judge(&solved.solution) {
+        Err(violation) => Some(format!("the planner's answer: {violation}")),
+        Ok(cost) if cost.same_as(&solved.cost) => None,
+        Ok(cost) => Some(format!(
+            "the planner says that its answer costs {:?}, the judge says {cost:?}",
+            solved.cost
+        )),
+    }
+}
+
 /// What a report says of the scene.
 fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> Answer {
     let mut notes: Vec<Note> = Vec::new();
@@ -144,10 +156,17 @@ fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> A
         outcome = outcome.converted();
     }
     if let Some(solved) = outcome.solved() {
-        found = P::read(posed, scene, solved);
+        match lie(&posed.problem, solved) {
+            None => {
+                found = P::read(posed, scene, solved);
+                if found.is_none() {
+                    let text = "the planner's path does not pass the judge of the map that was asked about";
+                    say("refused", text.to_owned());
+                }
+            }
+            Some(lie) => say("refused", lie),
+        }
         if found.is_none() {
-            let text = "the planner's path does not pass the judge of the map that was asked about";
-            say("refused", text.to_owned());
             outcome = Outcome::Unknown { attempt: None };
         }
     }
@@ -274,5 +293,66 @@ impl Watch {
 
     fn elapsed(&self) -> Duration {
         self.clock.now().saturating_sub(self.began)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::GridScene;
+    use pf_core::{FromScratch, Planner};
+    use pf_grid::{Cell, Grid, GridCost, GridProblem};
+
+    /// Says of a path that it is the best and costs so many straight steps, whatever it is.
+    struct Liar {
+        path: Vec<Cell>,
+        steps: u64,
+    }
+
+    impl Planner<GridProblem> for Liar {
+        fn name(&self) -> &'static str {
+            "liar"
+        }
+
+        fn claims(&self) -> Claims {
+            Claims::NONE
+        }
+
+        fn plan(
+            &mut self,
+            _problem: &GridProblem,
+            cx: &mut Context<'_, GridProblem>,
+        ) -> Result<Report<GridProblem>, Unsupported> {
+            Ok(cx.report(Outcome::Optimal(Solved {
+                solution: self.path.clone(),
+                cost: GridCost::of_steps(self.steps, 0),
+            })))
+        }
+    }
+
+    fn told(path: &[(u32, u32)], steps: u64) -> (&'static str, Vec<String>) {
+        let grid = Grid::parse("... .#. ...").unwrap();
+        let scene = GridScene::new(grid, Cell::new(0, 1), Cell::new(2, 1)).unwrap();
+        let path = path.iter().map(|&(x, y)| Cell::new(x, y)).collect();
+        let mut runner = On::new(Box::new(FromScratch(Liar { path, steps })));
+        let answer = runner.plan(&scene.into(), Order::seeded(0)).unwrap();
+        assert_eq!(answer.costs.is_empty(), answer.outcome == "unknown");
+        let notes = answer.notes.iter().map(ToString::to_string);
+        (answer.outcome, notes.collect())
+    }
+
+    #[test]
+    fn a_lie_is_told_and_not_believed() {
+        let around = [(0, 1), (0, 0), (1, 0), (2, 0), (2, 1)];
+        assert_eq!(told(&around, 4), ("optimal", vec![]));
+        let (outcome, notes) = told(&[(0, 1), (1, 1), (2, 1)], 2);
+        assert_eq!(outcome, "unknown");
+        assert_eq!(notes, ["refused: the planner's answer: move 0 collides"]);
+        let (outcome, notes) = told(&around, 3);
+        assert_eq!(outcome, "unknown");
+        assert!(
+            notes[0].starts_with("refused: the planner says"),
+            "{notes:?}"
+        );
     }
 }

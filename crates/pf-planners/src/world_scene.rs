@@ -97,7 +97,9 @@ impl WorldScene {
         self.cell.unwrap_or_else(default)
     }
 
-    pub(crate) fn moves(&self) -> Moves {
+    /// The moves of planners on grids.
+    #[must_use]
+    pub fn moves(&self) -> Moves {
         self.moves.unwrap_or(Moves::Always)
     }
 

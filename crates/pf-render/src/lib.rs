@@ -48,7 +48,8 @@ mod team;
 mod world;
 
 pub use film::{Ending, Film, Found, Gallery, Look, Reel, Shade, Shot, Thing};
+pub use palette::SERIES;
 pub use picture::{Line, Picture};
 pub use png::{NoPicture, png_of};
-pub use recorder::Recorder;
+pub use recorder::{Improvement, Recorder};
 pub use team::TeamSheet;

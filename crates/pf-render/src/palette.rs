@@ -2,6 +2,17 @@
 
 /// Paths, in the order they are added.
 pub(crate) const PATHS: [&str; 5] = ["#d55e00", "#009e73", "#cc79a7", "#e69f00", "#000000"];
+/// Lines and marks of charts, red, green and blue, in the order they are added.
+pub const SERIES: [(u8, u8, u8); 8] = [
+    (0xd5, 0x5e, 0x00),
+    (0x00, 0x72, 0xb2),
+    (0x00, 0x9e, 0x73),
+    (0xcc, 0x79, 0xa7),
+    (0xe6, 0x9f, 0x00),
+    (0x56, 0xb4, 0xe9),
+    (0x00, 0x00, 0x00),
+    (0x8a, 0x91, 0x9c),
+];
 pub(crate) const DASHED: &str = "#0072b2";
 pub(crate) const START: &str = "#009e73";
 pub(crate) const GOAL: &str = "#0072b2";

@@ -1,6 +1,6 @@
 use crate::film::tape::{Better, Sample, Tape};
-use pf_core::{Event, Trace};
-use pf_geom::{Point, TeamProblem, WorldProblem};
+use pf_core::{Event, Stats, Trace};
+use pf_geom::{LENGTH, Point, TeamProblem, WorldProblem};
 use pf_grid::{Cell, GridProblem};
 
 /// Listens to a search and keeps what a picture can show of it.
@@ -20,10 +20,47 @@ pub struct Recorder {
     expanded: Vec<Cell>,
     reached: Vec<[f64; 2]>,
     pieces: Vec<[[f64; 2]; 2]>,
+    improvements: Vec<Improvement>,
+    only_improvements: bool,
+    spent: Stats,
     tape: Option<Tape>,
 }
 
+/// A solution better than all before it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Improvement {
+    /// Evaluations until then.
+    pub evaluated: u64,
+    /// Expansions until then.
+    pub expanded: u64,
+    /// Its cost; of a front, the least length.
+    pub cost: f64,
+}
+
 impl Recorder {
+    /// Keeps only what [`improvements`](Self::improvements) returns, however long the search.
+    #[must_use]
+    pub fn of_improvements() -> Self {
+        Self {
+            only_improvements: true,
+            ..Self::default()
+        }
+    }
+
+    /// The improvements in the order they were made, costs in the units of the planner's own problem.
+    #[must_use]
+    pub fn improvements(&self) -> &[Improvement] {
+        &self.improvements
+    }
+
+    fn improved(&mut self, cost: f64) {
+        self.improvements.push(Improvement {
+            evaluated: self.spent.evaluated,
+            expanded: self.spent.expanded,
+            cost,
+        });
+    }
+
     /// The cells in the order they were expanded; a cell that was expanded twice is there twice.
     #[must_use]
     pub fn expanded(&self) -> &[Cell] {
@@ -64,6 +101,7 @@ impl Recorder {
         self.expanded.clear();
         self.reached.clear();
         self.pieces.clear();
+        self.improvements.clear();
         if let Some(tape) = &mut self.tape {
             *tape = Tape::new(tape.frames, tape.size);
         }
@@ -72,8 +110,10 @@ impl Recorder {
 
 impl Trace<GridProblem> for Recorder {
     fn event(&mut self, event: &Event<'_, GridProblem>) {
-        if let &Event::Expanded(&cell) = event {
-            self.expanded.push(cell);
+        match event {
+            &Event::Expanded(&cell) if !self.only_improvements => self.expanded.push(cell),
+            Event::Improved(best) => self.improved(best.cost.value()),
+            _ => {}
         }
         let Some(tape) = &mut self.tape else { return };
         let now = tape.tick();
@@ -100,6 +140,10 @@ impl Trace<GridProblem> for Recorder {
             _ => {}
         }
     }
+
+    fn spent(&mut self, stats: &Stats) {
+        self.spent = *stats;
+    }
 }
 
 /// Points that a frame shows at most.
@@ -115,6 +159,8 @@ impl Trace<WorldProblem> for Recorder {
     fn event(&mut self, event: &Event<'_, WorldProblem>) {
         let pair = |p: &Point| [p.x, p.y];
         match event {
+            Event::Improved(best) => self.improved(best.cost),
+            _ if self.only_improvements => {}
             Event::Expanded(point) => self.reached.push(pair(point)),
             Event::Points {
                 name: "free piece",
@@ -139,15 +185,27 @@ impl Trace<WorldProblem> for Recorder {
             _ => {}
         }
     }
+
+    fn spent(&mut self, stats: &Stats) {
+        self.spent = *stats;
+    }
 }
 
 /// Where robots of the population are, the last that was shown.
 impl Trace<TeamProblem> for Recorder {
     fn event(&mut self, event: &Event<'_, TeamProblem>) {
-        let places = |at: &[Vec<Point>]| at.iter().flatten().map(|p| [p.x, p.y]).collect();
-        if let (Event::Points { at, .. }, None) = (event, &self.tape) {
-            self.reached = places(at);
+        match event {
+            Event::Improved(best) => {
+                let lengths = best.cost.members().iter().map(|cost| cost[LENGTH]);
+                self.improved(lengths.fold(f64::INFINITY, f64::min));
+            }
+            Event::Points { at, .. } if !self.only_improvements && self.tape.is_none() => {
+                self.reached.clear();
+                self.reached.extend(at.iter().flatten().map(|p| [p.x, p.y]));
+            }
+            _ => {}
         }
+        let places = |at: &[Vec<Point>]| at.iter().flatten().map(|p| [p.x, p.y]).collect();
         let Some(tape) = &mut self.tape else { return };
         let now = tape.tick();
         match event {
@@ -164,5 +222,9 @@ impl Trace<TeamProblem> for Recorder {
             }),
             _ => {}
         }
+    }
+
+    fn spent(&mut self, stats: &Stats) {
+        self.spent = *stats;
     }
 }

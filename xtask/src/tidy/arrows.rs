@@ -14,7 +14,7 @@ enum Layer {
     Port,
     Conformance,
     Registry,
-    /// pf-bench, pf-papers.
+    /// pf-bench, pf-papers, pf-suite.
     Study,
     Program,
     /// xtask, pf-tests.
@@ -29,7 +29,7 @@ fn layer(name: &str) -> Layer {
         "pf-io" | "pf-render" | "pf-external" => Layer::Port,
         "pf-conformance" => Layer::Conformance,
         "pf-planners" => Layer::Registry,
-        "pf-bench" | "pf-papers" => Layer::Study,
+        "pf-bench" | "pf-papers" | "pf-suite" => Layer::Study,
         "pf-cli" => Layer::Program,
         "pf-tests" | "xtask" => Layer::Top,
         _ => Layer::Planner,

@@ -3,20 +3,10 @@
 use crate::protocol::Row;
 use anyhow::{Context as _, Result, anyhow, bail};
 use pf_io::write_whole;
+use pf_render::SERIES;
 use plotters::prelude::*;
 use std::path::Path;
 
-/// After Okabe and Ito, as in all pictures here.
-const COLOURS: [RGBColor; 8] = [
-    RGBColor(0xd5, 0x5e, 0x00),
-    RGBColor(0x00, 0x72, 0xb2),
-    RGBColor(0x00, 0x9e, 0x73),
-    RGBColor(0xcc, 0x79, 0xa7),
-    RGBColor(0xe6, 0x9f, 0x00),
-    RGBColor(0x56, 0xb4, 0xe9),
-    RGBColor(0x00, 0x00, 0x00),
-    RGBColor(0x8a, 0x91, 0x9c),
-];
 const FONT: &str = "DejaVu Sans";
 
 /// Refuses a file that cannot be drawn before anything is measured.
@@ -89,7 +79,8 @@ fn svg(rows: &[Row]) -> Result<String, Box<dyn std::error::Error>> {
             .light_line_style(WHITE)
             .draw()?;
         for (k, planner) in planners.iter().enumerate() {
-            let colour = COLOURS[k % COLOURS.len()];
+            let (r, g, b) = SERIES[k % SERIES.len()];
+            let colour = RGBColor(r, g, b);
             let points = rows
                 .iter()
                 .filter(|row| row.planner == *planner)

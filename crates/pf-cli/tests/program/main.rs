@@ -2,6 +2,7 @@
 
 mod animations;
 mod answers;
+mod benches;
 mod conversions;
 mod demo;
 mod drives;

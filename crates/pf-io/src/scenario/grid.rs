@@ -1,6 +1,6 @@
 //! Queries on grids.
 
-use super::{Event, Expected, Maps, Query, events, one_of};
+use super::{Event, Expected, Maps, Query, events};
 use crate::{FileError, GridMap, LoadOptions, load_grid, toml_tree::Table};
 use pf_core::Problem;
 use pf_grid::{Grid, GridChange, GridCost, GridProblem, Moves};
@@ -75,9 +75,9 @@ impl Query for Case {
         let start = needed("start", "a cell [x, y]")?.cell(size)?;
         let goal = needed("goal", "a cell [x, y]")?.cell(size)?;
         let names = Moves::ALL.map(|moves| (moves.name(), moves));
-        let moves = match one_of(table, "moves", &names)? {
+        let moves = match table.one_of("moves", &names)? {
             Some(moves) => moves,
-            None => one_of(top, "moves", &names)?.unwrap_or_default(),
+            None => top.one_of("moves", &names)?.unwrap_or_default(),
         };
         let radius = match table.get("radius").or(top.get("radius")) {
             Some(value) => value.amount("the robot's radius in cells")?,

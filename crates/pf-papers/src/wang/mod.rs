@@ -8,12 +8,10 @@
 mod contenders;
 mod figures;
 mod problems;
-mod ranks;
 
 pub use contenders::{Contender, contenders};
 pub use figures::figures;
 pub use problems::{Trial, concave, four_discs, further, three_discs};
-pub use ranks::{holm, wilcoxon};
 
 use crate::{
     PaperError,
@@ -24,6 +22,7 @@ use contenders::Run;
 use pf_core::CancelToken;
 use pf_geom::{LENGTH, Objectives, TURNING, TeamProblem, Timing};
 use pf_moabc::indicators::{breadth, error_rate, igd_plus};
+use pf_suite::comparisons::{holm, wilcoxon};
 
 /// The evaluations a run may take: in the paper's experiments, and on further problems.
 const SMALL: u64 = 20_000;

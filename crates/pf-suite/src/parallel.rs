@@ -12,7 +12,7 @@ use std::{
 /// Works the tasks 0 to `count` off on so many threads and hands each result to `done`, on the
 /// caller's thread and in whatever order they come; `done` says whether to go on. A task that has
 /// begun is finished.
-pub(crate) fn spread<T: Send>(
+pub fn spread<T: Send>(
     threads: NonZeroUsize,
     count: usize,
     work: impl Fn(usize) -> T + Sync,
