@@ -3,6 +3,7 @@
 
 mod bench;
 mod bless;
+mod browser;
 mod ci;
 mod conformance;
 mod gallery;
@@ -48,6 +49,8 @@ enum Verb {
     Bless,
     /// Runs a benchmark suite of pf-bench, optimised: `cargo xtask bench grid --json`
     Bench(bench::Args),
+    /// Looks at the demo's report and at animations in Chromium; skipped where there is none
+    Browser,
     /// Draws the maps that are made here: maps/grids/office.yaml and its picture
     Maps,
     /// Draws the pictures of docs/gallery.md again
@@ -75,6 +78,7 @@ fn main() -> ExitCode {
         Verb::Tidy => tidy::run(),
         Verb::Bless => bless::run(),
         Verb::Bench(args) => bench::run(&args),
+        Verb::Browser => browser::run(),
         Verb::Maps => maps::run(),
         Verb::Gallery => gallery::run(),
         Verb::NewPlanner(args) => new_planner::run(&args),

@@ -10,7 +10,7 @@ use pf_render::Recorder;
 use std::{num::NonZeroUsize, time::Duration};
 
 /// Which planner, and within what.
-#[derive(Args, Debug)]
+#[derive(Args, Debug, Default)]
 #[command(next_help_heading = "Planner")]
 pub(crate) struct PlannerArgs {
     /// Which planner; `pf planners` lists them
@@ -91,7 +91,7 @@ impl PlannerArgs {
 }
 
 /// The question, where the file does not say it or says it otherwise.
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 #[command(next_help_heading = "Question")]
 pub(crate) struct QuestionArgs {
     /// Where from: on a grid column and row, from 0, rows down; in a world a point, y up

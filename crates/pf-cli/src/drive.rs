@@ -67,7 +67,7 @@ pub(crate) struct Args {
     json: bool,
 }
 
-fn radius(text: &str) -> Result<f64, &'static str> {
+pub(crate) fn radius(text: &str) -> Result<f64, &'static str> {
     let radius = text.parse().ok();
     radius
         .filter(|radius: &f64| *radius >= 0.0 && radius.is_finite())
@@ -111,8 +111,9 @@ struct Told<'a> {
 }
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
-    let entry = entry(args)?;
-    let question = ask(args)?;
+    let entry = entry(&args.planner)?;
+    let row = args.scen.as_deref().zip(args.row);
+    let question = ask(&args.map, &args.question, row)?;
     let Scene::Grid(scene) = &question.scene else {
         return Err(no_grid(&args.map));
     };
@@ -156,8 +157,8 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     })
 }
 
-fn entry(args: &Args) -> Result<&'static Entry<GridProblem>, Failure> {
-    let asked = args.planner.entry("d-star-lite")?;
+pub(crate) fn entry(planner: &PlannerArgs) -> Result<&'static Entry<GridProblem>, Failure> {
+    let asked = planner.entry("d-star-lite")?;
     let found = grid_planners().find(|entry| entry.key() == asked.key());
     found.ok_or_else(|| {
         let names: Vec<_> = grid_planners().map(Entry::key).collect();
@@ -166,7 +167,7 @@ fn entry(args: &Args) -> Result<&'static Entry<GridProblem>, Failure> {
     })
 }
 
-fn no_grid(map: &Path) -> Failure {
+pub(crate) fn no_grid(map: &Path) -> Failure {
     let message = format!(
         "{}: a robot drives on a grid, not in a world",
         map.display()
@@ -174,15 +175,19 @@ fn no_grid(map: &Path) -> Failure {
     Failure::usage(message).help("`pf plan` and `pf replan` plan in worlds")
 }
 
-/// Where to drive.
-fn ask(args: &Args) -> Result<Question, Failure> {
-    let kind = kind_of(&args.map)?;
+/// Where to drive: as the options say, as a row of a file of queries does, or across the map.
+pub(crate) fn ask(
+    map: &Path,
+    options: &QuestionArgs,
+    row: Option<(&Path, usize)>,
+) -> Result<Question, Failure> {
+    let kind = kind_of(map)?;
     if question::is_about_a_world(kind) {
-        return Err(no_grid(&args.map));
+        return Err(no_grid(map));
     }
-    let mut options = args.question.clone();
-    if let (Some(file), Some(row)) = (&args.scen, args.row) {
-        let grid = question::grid(&args.map, &args.question)?;
+    let mut options = options.clone();
+    if let Some((file, row)) = row {
+        let grid = question::grid(map, &options)?;
         let scen = read_scen(file)?;
         scen.check_size(&grid)?;
         let found = row.checked_sub(1).and_then(|row| scen.rows.get(row));
@@ -194,7 +199,7 @@ fn ask(args: &Args) -> Result<Question, Failure> {
         options.from = Some(found.start.into());
         options.to = Some(found.goal.into());
     } else if kind == FileKind::Grid && options.from.is_none() && options.to.is_none() {
-        let grid = question::grid(&args.map, &args.question)?;
+        let grid = question::grid(map, &options)?;
         let reach = options.radius.unwrap_or(0.0) + options.clearance.unwrap_or(0.0);
         let ends = if reach > 0.0 {
             ends(&grid.inflated(reach))
@@ -203,13 +208,13 @@ fn ask(args: &Args) -> Result<Question, Failure> {
         };
         [options.from, options.to] = ends.map(|cell| Some(cell.into()));
     }
-    let mut questions = question::read(&args.map, &options)?;
+    let mut questions = question::read(map, &options)?;
     if questions.len() > 1 {
         let names: Vec<_> = questions.iter().filter_map(|q| q.case.as_deref()).collect();
         let help = format!("choose one with --case: {}", names.join(", "));
         return Err(Failure::usage("a robot drives in one case").help(help));
     }
-    let none = || Failure::usage(format!("{} asks nothing", args.map.display()));
+    let none = || Failure::usage(format!("{} asks nothing", map.display()));
     questions.pop().ok_or_else(none)
 }
 

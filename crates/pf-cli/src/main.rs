@@ -4,6 +4,7 @@
 //! 1 internal error, 2 usage, 3 bad input file, 4 proved that there is no path, 5 none found within
 //! the budget, 6 a check failed, 130 interrupted.
 
+mod animate;
 mod args;
 mod bench;
 mod demo;
@@ -49,6 +50,7 @@ Examples:
   pf drive maze.map --sensor 10 --svg drive.svg
   pf walk maps/scenarios/busy-square.toml --png walk.png
   pf team three-robots.toml --prefer safety --svg front.svg
+  pf animate arena.map --from 3,4 --to 60,41 -o search.gif
   pf bench maps/suites/grid-small.toml -o runs
 
 Exit codes:
@@ -68,6 +70,8 @@ enum Verb {
     Walk(walk::Args),
     /// Plan for several robots at once and choose from a front of plans
     Team(team::Args),
+    /// Animate what a planner does, as GIF or as a page with a slider
+    Animate(animate::Args),
     /// Run a suite of problems and planners, and report on its runs
     Bench(bench::Args),
     /// Run the experiment of a paper again
@@ -101,6 +105,7 @@ fn act(verb: Verb) -> Result<Status, Failure> {
         Verb::Walk(args) => walk::act(&args, &cancel),
         Verb::Tune(args) => tune::act(&args, &cancel),
         Verb::Team(args) => team::act(&args, &cancel),
+        Verb::Animate(args) => animate::act(&args, &cancel),
         Verb::Bench(args) => bench::act(&args, &cancel),
         Verb::Paper(args) => paper::act(&args, &cancel),
         Verb::Planners(args) => planners::act(&args),

@@ -348,7 +348,22 @@ pub(crate) fn cases(
         let message = "--unknown: a scenario file says itself what unknown cells are";
         return Err(Failure::usage(message).help("write unknown = \"free\" into it"));
     }
-    let cases: Vec<Case> = match load_scenario(file)? {
+    played(
+        &file.display().to_string(),
+        load_scenario(file)?,
+        args,
+        in_time,
+    )
+}
+
+/// The cases of a scenario that was read, under its file's name.
+pub(crate) fn played(
+    file: &str,
+    scenario: AnyScenario,
+    args: &QuestionArgs,
+    in_time: bool,
+) -> Result<Vec<Question>, Failure> {
+    let cases: Vec<Case> = match scenario {
         AnyScenario::Grid(scenario) => scenario.cases.into_iter().map(Case::from).collect(),
         AnyScenario::World(scenario) => scenario.cases.into_iter().map(Case::from).collect(),
     };
@@ -371,7 +386,7 @@ pub(crate) fn cases(
             stated_after = 1;
         }
         Ok(Question {
-            file: file.display().to_string(),
+            file: file.to_owned(),
             case: (cases.len() > 1).then(|| case.name.clone()),
             scene: plain.scene(args)?,
             names: case.names.clone(),

@@ -16,7 +16,7 @@ use serde::Serialize;
 use std::{
     fmt::Write as _,
     io::{Write, stdout},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 /// Plan for all robots of a world: a front of plans, and the one that is preferred
@@ -85,8 +85,13 @@ struct Stats {
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
     let entry = entry(&args.planner)?;
-    let problem = problem(args)?;
-    let report = plan(args, entry, &problem, cancel)?;
+    let timing = if args.ignore_time {
+        Timing::Ignored
+    } else {
+        Timing::Exact
+    };
+    let problem = problem(&args.map, timing, args.ease)?;
+    let report = plan(&args.planner, args.evaluations, entry, &problem, cancel)?;
     if let Some(front) = report.outcome.solved() {
         draw(args, entry, &problem, front)?;
     }
@@ -106,7 +111,7 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     })
 }
 
-fn entry(args: &PlannerArgs) -> Result<&'static Entry<TeamProblem>, Failure> {
+pub(crate) fn entry(args: &PlannerArgs) -> Result<&'static Entry<TeamProblem>, Failure> {
     let asked = args.planner.as_deref().unwrap_or("moabc");
     let found = team_planners().find(|entry| entry.key() == asked);
     found.ok_or_else(|| {
@@ -121,27 +126,22 @@ fn entry(args: &PlannerArgs) -> Result<&'static Entry<TeamProblem>, Failure> {
 }
 
 /// What the file asks.
-fn problem(args: &Args) -> Result<TeamProblem, Failure> {
-    let file = read_world(&args.map)?;
+pub(crate) fn problem(map: &Path, timing: Timing, ease: f64) -> Result<TeamProblem, Failure> {
+    let file = read_world(map)?;
     let bad = |what: &dyn std::fmt::Display| Failure::BadFile {
-        message: format!("{}: {what}", args.map.display()),
+        message: format!("{}: {what}", map.display()),
         code: None,
         at: None,
     };
     if file.robots.is_empty() {
         return Err(bad(&"found no [[robot]], expected one at least"));
     }
-    let timing = if args.ignore_time {
-        Timing::Ignored
-    } else {
-        Timing::Exact
-    };
     let team = TeamProblem::new(file.world.clone(), robots(&file)).map_err(|error| bad(&error))?;
-    let team = team.with_timing(timing).with_ease(args.ease);
+    let team = team.with_timing(timing).with_ease(ease);
     team.map_err(|error| Failure::usage(format!("--ease: {error}")))
 }
 
-fn robots(file: &WorldFile) -> Vec<Robot> {
+pub(crate) fn robots(file: &WorldFile) -> Vec<Robot> {
     let robots = file.robots.iter().map(|robot| Robot {
         start: robot.start,
         goal: robot.goal,
@@ -151,17 +151,18 @@ fn robots(file: &WorldFile) -> Vec<Robot> {
     robots.collect()
 }
 
-fn plan(
-    args: &Args,
+pub(crate) fn plan(
+    args: &PlannerArgs,
+    evaluations: Option<u64>,
     entry: &Entry<TeamProblem>,
     problem: &TeamProblem,
     cancel: &CancelToken,
 ) -> Result<Report<TeamProblem>, Failure> {
-    let mut settings = args.planner.settings.clone();
+    let mut settings = args.settings.clone();
     let takes = |name: &str| entry.parameters().iter().any(|key| key.name == name);
     let given = [
-        ("threads", args.planner.threads.map(|n| n.to_string())),
-        ("evaluations", args.evaluations.map(|n| n.to_string())),
+        ("threads", args.threads.map(|n| n.to_string())),
+        ("evaluations", evaluations.map(|n| n.to_string())),
     ];
     for (key, value) in given {
         if let Some(value) = value.filter(|_| takes(key)) {
@@ -171,13 +172,13 @@ fn plan(
     let planner = entry.make(&settings);
     let mut planner = planner.map_err(|error| Failure::usage(format!("--set: {error}")))?;
     let mut budget = Budget::unlimited().cancel(cancel);
-    if let Some(time) = args.planner.time {
+    if let Some(time) = args.time {
         budget = budget.time(time);
     }
-    if let Some(iterations) = args.planner.iterations {
+    if let Some(iterations) = args.iterations {
         budget = budget.iterations(iterations);
     }
-    let mut cx = Context::seeded(args.planner.seed).within(budget);
+    let mut cx = Context::seeded(args.seed).within(budget);
     let report = planner.plan(problem, &mut cx);
     report.map_err(|error| Failure::usage(error.to_string()))
 }

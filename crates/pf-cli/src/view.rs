@@ -21,10 +21,7 @@ impl Shown<'_> {
     /// What the planner saw and knows, over the map.
     pub(crate) fn search(&self, mut picture: Picture) -> Picture {
         if let Some(raster) = self.raster {
-            let first = raster.centre(Cell::new(0, 0));
-            let side = raster.cell_size();
-            let corner = [first.x - side / 2.0, first.y - side / 2.0];
-            picture = picture.rasterised(raster.grid(), corner, side);
+            picture = rasterised(picture, raster);
         }
         if self.expanded {
             if !self.recorder.expanded().is_empty() {
@@ -37,6 +34,14 @@ impl Shown<'_> {
         }
         picture
     }
+}
+
+/// The cells that a world was cut into.
+pub(crate) fn rasterised(picture: Picture, raster: &Raster) -> Picture {
+    let first = raster.centre(Cell::new(0, 0));
+    let side = raster.cell_size();
+    let corner = [first.x - side / 2.0, first.y - side / 2.0];
+    picture.rasterised(raster.grid(), corner, side)
 }
 
 /// A scene's map, with what is too narrow for its robot.
@@ -92,12 +97,20 @@ pub(crate) fn on_picture(scene: &Scene, line: &Line) -> Vec<[f64; 2]> {
 
 /// Start and goal.
 pub(crate) fn ends(picture: Picture, scene: &Scene) -> Picture {
+    let [start, goal] = end_points(scene);
+    picture.end_points(start, goal)
+}
+
+/// Start and goal in a picture's units.
+pub(crate) fn end_points(scene: &Scene) -> [[f64; 2]; 2] {
     match scene {
-        Scene::Grid(scene) => picture.ends(scene.from(), scene.to()),
+        Scene::Grid(scene) => {
+            let middle = |cell: Cell| [f64::from(cell.x) + 0.5, f64::from(cell.y) + 0.5];
+            [scene.from(), scene.to()].map(middle)
+        }
         Scene::World(scene) => {
-            let pair = |p: Point| [p.x, p.y];
             let problem = scene.problem();
-            picture.end_points(pair(problem.start()), pair(problem.goal()))
+            [problem.start(), problem.goal()].map(|p| [p.x, p.y])
         }
     }
 }

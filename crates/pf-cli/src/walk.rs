@@ -8,7 +8,7 @@ use crate::{
     report, text, view, words,
 };
 use pf_abc::{AbcParams, Colony};
-use pf_core::{CancelToken, Context, Outcome, Params, Walk, Walked as End};
+use pf_core::{CancelToken, Context, Outcome, Params, Trace, Walk, Walked as End};
 use pf_geom::{Point, Shape, World, WorldChange, WorldProblem};
 use pf_io::{AnyScenario, TimeUnit, load_scenario};
 use pf_planners::{Changes, Line, Scene};
@@ -17,7 +17,7 @@ use serde::Serialize;
 use std::{
     collections::VecDeque,
     io::{Write, stdout},
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 /// Walk a robot through a world it does not know, step by step, while things happen there.
@@ -75,16 +75,20 @@ struct Told {
 }
 
 /// A walk with all that is told of it.
-struct Walked<'a> {
-    args: &'a Args,
+pub(crate) struct Walked<'a> {
+    planner: &'a PlannerArgs,
     question: &'a Question,
-    end: End,
+    pub(crate) end: End,
     stop: &'static str,
     steps: u64,
     evaluated: u64,
-    trail: Vec<Point>,
+    pub(crate) trail: Vec<Point>,
     told: Vec<Told>,
     notes: Vec<String>,
+    /// From which step on the world was so.
+    pub(crate) worlds: Vec<(u64, Scene)>,
+    /// How long the trail was at the start and after each step.
+    pub(crate) places: Vec<usize>,
     /// The scene as it is in the end.
     scene: Scene,
     /// Every obstacle wherever it stood at some time.
@@ -92,13 +96,13 @@ struct Walked<'a> {
 }
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
-    let params = params(args)?;
+    let params = params(&args.planner)?;
     let question = question::one(&args.world, &args.question)?;
     if !matches!(question.scene, Scene::World(_)) {
         return Err(question::no_world(&args.world));
     }
-    check_events(args, &question)?;
-    let walked = walk(args, &question, params, cancel)?;
+    check_events(&args.world, &question)?;
+    let walked = walk(&args.planner, &question, params, cancel, None)?;
     let mut out = stdout().lock();
     if args.json {
         report::line(&mut out, &walked.json())?;
@@ -109,22 +113,17 @@ pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> 
     if svg.is_some() || png.is_some() {
         draw(&walked.picture()?, svg, png)?;
     }
-    match walked.end {
-        End::Arrived => Ok(Status::Done),
-        End::Refused => Err(Failure::Internal("a step was not as was seen".to_owned())),
-        End::On if cancel.is_cancelled() => Ok(Status::Interrupted),
-        End::On | End::GaveUp => Ok(Status::NotFound),
-    }
+    walked.status(cancel)
 }
 
-fn params(args: &Args) -> Result<AbcParams, Failure> {
-    let entry = args.planner.entry("abc")?;
+pub(crate) fn params(planner: &PlannerArgs) -> Result<AbcParams, Failure> {
+    let entry = planner.entry("abc")?;
     if entry.key() != "abc" {
         let message = format!("--planner: {} wants to see the whole world", entry.key());
         return Err(Failure::usage(message).help("who sees only what is near is abc"));
     }
     let mut params = AbcParams::default();
-    for (key, value) in &args.planner.settings {
+    for (key, value) in &planner.settings {
         let set = params.set(key, value);
         set.map_err(|error| Failure::usage(format!("--set: {error}")))?;
     }
@@ -132,16 +131,16 @@ fn params(args: &Args) -> Result<AbcParams, Failure> {
 }
 
 /// Events in steps, none of which carries the robot away.
-fn check_events(args: &Args, question: &Question) -> Result<(), Failure> {
+pub(crate) fn check_events(world: &Path, question: &Question) -> Result<(), Failure> {
     if question.events.is_empty() {
         return Ok(());
     }
-    let seconds = match load_scenario(&args.world)? {
+    let seconds = match load_scenario(world)? {
         AnyScenario::Grid(scenario) => scenario.time == TimeUnit::Seconds,
         AnyScenario::World(scenario) => scenario.time == TimeUnit::Seconds,
     };
     if seconds {
-        let message = format!("{} counts seconds, a walk steps", args.world.display());
+        let message = format!("{} counts seconds, a walk steps", world.display());
         return Err(Failure::usage(message).help("time = \"steps\""));
     }
     let carries = |happening: &&Happening| match &happening.changes {
@@ -160,16 +159,21 @@ fn check_events(args: &Args, question: &Question) -> Result<(), Failure> {
     Ok(())
 }
 
-fn walk<'a>(
-    args: &'a Args,
+pub(crate) fn walk<'a>(
+    planner: &'a PlannerArgs,
     question: &'a Question,
     params: AbcParams,
     cancel: &CancelToken,
+    trace: Option<&mut dyn Trace<WorldProblem>>,
 ) -> Result<Walked<'a>, Failure> {
     let settings = |error| Failure::usage(format!("--set: {error}"));
     let mut colony = Colony::new(params).map_err(settings)?;
-    let order = args.planner.order(cancel, None);
+    let order = planner.order(cancel, None);
     let mut cx: Context<'_, WorldProblem> = Context::seeded(order.seed).within(order.budget);
+    if let Some(trace) = trace {
+        cx = cx.traced(trace);
+    }
+    let (mut worlds, mut places) = (vec![(0, question.scene.clone())], vec![1]);
     let mut scene = question.scene.clone();
     let mut events: VecDeque<&Happening> = question.events.iter().collect();
     let mut told = Vec::new();
@@ -181,6 +185,7 @@ fn walk<'a>(
         #[expect(clippy::cast_precision_loss, reason = "a number of steps")]
         while let Some(event) = events.pop_front_if(|event| event.at <= steps as f64) {
             scene.change(&event.changes)?;
+            worlds.push((steps, scene.clone()));
             stand(&mut stood, problem(&scene)?.world());
             let change = words::of(&event.changes, &question.names);
             told.push(Told {
@@ -198,12 +203,13 @@ fn walk<'a>(
             End::On => steps += 1,
             end => break end,
         }
+        places.push(walk.trail().len());
     };
     let trail = walk.into_trail();
     let attempt = Some(trail.clone());
     let report = cx.report(Outcome::Unknown { attempt });
     Ok(Walked {
-        args,
+        planner,
         question,
         end,
         stop: report.stop.word(),
@@ -212,6 +218,8 @@ fn walk<'a>(
         trail,
         told,
         notes: report.notes.iter().map(ToString::to_string).collect(),
+        worlds,
+        places,
         scene,
         stood,
     })
@@ -234,6 +242,15 @@ fn problem(scene: &Scene) -> Result<&WorldProblem, Failure> {
 }
 
 impl Walked<'_> {
+    pub(crate) fn status(&self, cancel: &CancelToken) -> Result<Status, Failure> {
+        match self.end {
+            End::Arrived => Ok(Status::Done),
+            End::Refused => Err(Failure::Internal("a step was not as was seen".to_owned())),
+            End::On if cancel.is_cancelled() => Ok(Status::Interrupted),
+            End::On | End::GaveUp => Ok(Status::NotFound),
+        }
+    }
+
     fn line(&self) -> Line {
         self.trail.iter().map(|p| [p.x, p.y]).collect()
     }
@@ -253,7 +270,7 @@ impl Walked<'_> {
             steps: self.steps,
             evaluated: self.evaluated,
             path: self.line(),
-            seed: self.args.planner.seed,
+            seed: self.planner.seed,
             events: &self.told,
             notes: &self.notes,
         }
@@ -269,7 +286,7 @@ impl Walked<'_> {
         )
     }
 
-    fn end(&self) -> String {
+    pub(crate) fn end(&self) -> String {
         let words = match self.end {
             End::Arrived => "arrived",
             End::GaveUp => "gave up",

@@ -1,4 +1,4 @@
-//! Pictures of maps, paths and searches: SVG and PNG.
+//! Pictures and films of maps, paths and searches: SVG, PNG, GIF and HTML.
 //!
 //! A [`Picture`] is built layer by layer, later ones over earlier ones, and knows nothing of the
 //! planners whose work it shows. The SVG is written by hand as compact text: equal cells are merged
@@ -30,8 +30,13 @@
 //! the world's units and y running up, as in mathematics. So a path that was found in a world made
 //! from a grid is drawn on the grid, and cells made from a world are drawn on the world
 //! ([`Picture::rasterised`]).
+//!
+//! What happens in time is a [`Film`]: a few hundred frames over still grounds, as GIF or as a page with a
+//! slider. [`Recorder::filming`] listens to a planner for one, [`Reel::search`] makes frames of what it
+//! heard. Several films make a page by way of a [`Gallery`].
 
 mod cells;
+mod film;
 mod frame;
 mod page;
 mod palette;
@@ -42,6 +47,7 @@ mod svg;
 mod team;
 mod world;
 
+pub use film::{Ending, Film, Found, Gallery, Look, Reel, Shade, Shot, Thing};
 pub use palette::SERIES;
 pub use picture::{Line, Picture};
 pub use png::{NoPicture, png_of};

@@ -45,6 +45,27 @@ impl Page {
         }
     }
 
+    /// A map that fills a room, on a page of this width: pens are slimmer than in a
+    /// picture.
+    pub(crate) fn fitting(frame: Frame, room: [f64; 2], width: f64) -> Self {
+        let [w, h] = frame.size;
+        let scale = (room[0] / w).min(room[1] / h);
+        let cell = if frame.cells { scale } else { 9.0 };
+        Self {
+            frame,
+            scale,
+            map: [w, h].map(|side| (side * scale).max(1.0)),
+            width,
+            pen: (cell * 0.3).clamp(1.8, 4.0),
+            marker: (cell * 0.36).clamp(6.0, 10.0),
+        }
+    }
+
+    /// A length on the page, in tenths, at least so many pixels.
+    pub(crate) fn length(&self, length: f64, least: f64) -> f64 {
+        ((length * self.scale).max(least) * 10.0).round() / 10.0
+    }
+
     /// The map's left edge: centred on the page.
     pub(crate) fn left(&self) -> f64 {
         ((self.width - self.map[0]) / 2.0).floor()

@@ -46,3 +46,20 @@ pub(crate) const CLEARANCE: [&str; 5] = ["#d55e00", "#e69f00", "#f0e442", "#56b4
 
 /// What a planner knows, below what it found.
 pub(crate) const THREAD: &str = "#4f9dca";
+
+/// Numbers from the least to the greatest: viridis (Smith, van der Walt 2015), from its light end.
+pub(crate) const LEVELS: [&str; 16] = [
+    "#fde725", "#d2e21b", "#a5db36", "#7ad151", "#54c568", "#35b779", "#22a884", "#1f988b",
+    "#23888e", "#2a788e", "#31688e", "#39568c", "#414487", "#472f7d", "#481a6c", "#440154",
+];
+
+/// Cells that nobody has seen.
+pub(crate) const UNSEEN: &str = "#e3e6ea";
+
+/// An attempt among many.
+pub(crate) const TRY: &str = "#5d646e";
+
+/// Robots of a team, in their order.
+pub(crate) const ROBOTS: [&str; 6] = [
+    "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
+];

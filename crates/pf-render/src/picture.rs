@@ -82,6 +82,10 @@ pub(crate) enum Key {
     Line(&'static str, Line),
     Thread,
     Dot(&'static str),
+    Disc(&'static str),
+    Window(&'static str),
+    Hair(&'static str),
+    Ramp(&'static [&'static str]),
     Start,
     Goal,
 }

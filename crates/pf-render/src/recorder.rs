@@ -1,3 +1,4 @@
+use crate::film::tape::{Better, Sample, Tape};
 use pf_core::{Event, Stats, Trace};
 use pf_geom::{LENGTH, Point, TeamProblem, WorldProblem};
 use pf_grid::{Cell, GridProblem};
@@ -22,6 +23,7 @@ pub struct Recorder {
     improvements: Vec<Improvement>,
     only_improvements: bool,
     spent: Stats,
+    tape: Option<Tape>,
 }
 
 /// A solution better than all before it.
@@ -78,12 +80,31 @@ impl Recorder {
         &self.pieces
     }
 
+    /// One that keeps besides what an animation of so many frames can show: when what was
+    /// expanded, numbers per cell, swarms, attempts, and what was better than all before. Of what
+    /// happens more often than there are frames it keeps a few, spread evenly. `size` is columns and
+    /// rows of the map on which numbers per cell are sampled.
+    #[must_use]
+    pub fn filming(frames: usize, size: [u32; 2]) -> Self {
+        Self {
+            tape: Some(Tape::new(frames, size)),
+            ..Self::default()
+        }
+    }
+
+    pub(crate) fn tape(&self) -> Option<&Tape> {
+        self.tape.as_ref()
+    }
+
     /// Forgets everything.
     pub fn clear(&mut self) {
         self.expanded.clear();
         self.reached.clear();
         self.pieces.clear();
         self.improvements.clear();
+        if let Some(tape) = &mut self.tape {
+            *tape = Tape::new(tape.frames, tape.size);
+        }
     }
 }
 
@@ -94,11 +115,44 @@ impl Trace<GridProblem> for Recorder {
             Event::Improved(best) => self.improved(best.cost.value()),
             _ => {}
         }
+        let Some(tape) = &mut self.tape else { return };
+        let now = tape.tick();
+        tape.in_cells = true;
+        let middle = |c: &Cell| [f64::from(c.x) + 0.5, f64::from(c.y) + 0.5];
+        let line = |cells: &[Cell]| cells.iter().map(middle).collect();
+        match event {
+            Event::Expanded(_) => tape.expanded_at.push(now),
+            Event::Candidate(path) => tape.tries.offer(now, || line(path)),
+            Event::Improved(best) => tape.better.offer(now, || Better {
+                line: line(&best.solution),
+                cost: best.cost.value(),
+            }),
+            Event::Field { name, value } => {
+                let (size, block) = (tape.size, tape.block);
+                #[expect(clippy::cast_possible_truncation, reason = "a shade needs no more")]
+                let value = |[x, y]: [u32; 2]| value(&Cell { x, y }) as f32;
+                tape.fields.offer(now, || Sample {
+                    name,
+                    values: Tape::corners(size, block).map(value).collect(),
+                });
+            }
+            Event::Points { name, at } => tape.points.offer(now, || (name, few(line(at)))),
+            _ => {}
+        }
     }
 
     fn spent(&mut self, stats: &Stats) {
         self.spent = *stats;
     }
+}
+
+/// Points that a frame shows at most.
+const DOTS: usize = 100;
+
+/// Some of many points, evenly.
+fn few(points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+    let step = points.len().div_ceil(DOTS).max(1);
+    points.into_iter().step_by(step).collect()
 }
 
 impl Trace<WorldProblem> for Recorder {
@@ -111,7 +165,23 @@ impl Trace<WorldProblem> for Recorder {
             Event::Points {
                 name: "free piece",
                 at: [a, b],
-            } => self.pieces.push([pair(a), pair(b)]),
+            } => {
+                self.pieces.push([pair(a), pair(b)]);
+                return;
+            }
+            _ => {}
+        }
+        let Some(tape) = &mut self.tape else { return };
+        let now = tape.tick();
+        let line = |points: &[Point]| points.iter().map(pair).collect();
+        match event {
+            Event::Expanded(_) => tape.expanded_at.push(now),
+            Event::Candidate(path) => tape.tries.offer(now, || line(path)),
+            Event::Improved(best) => tape.better.offer(now, || Better {
+                line: line(&best.solution),
+                cost: best.cost,
+            }),
+            Event::Points { name, at } => tape.points.offer(now, || (name, few(line(at)))),
             _ => {}
         }
     }
@@ -129,10 +199,27 @@ impl Trace<TeamProblem> for Recorder {
                 let lengths = best.cost.members().iter().map(|cost| cost[LENGTH]);
                 self.improved(lengths.fold(f64::INFINITY, f64::min));
             }
-            Event::Points { at, .. } if !self.only_improvements => {
+            Event::Points { at, .. } if !self.only_improvements && self.tape.is_none() => {
                 self.reached.clear();
                 self.reached.extend(at.iter().flatten().map(|p| [p.x, p.y]));
             }
+            _ => {}
+        }
+        let places = |at: &[Vec<Point>]| at.iter().flatten().map(|p| [p.x, p.y]).collect();
+        let Some(tape) = &mut self.tape else { return };
+        let now = tape.tick();
+        match event {
+            Event::Points { name, at } => tape.points.offer(now, || (name, few(places(at)))),
+            Event::Improved(best) => tape.better.offer(now, || {
+                let shortest = best.solution.members().first();
+                let path = shortest.and_then(|plan| plan.paths.first());
+                Better {
+                    line: path.map_or(Vec::new(), |path| {
+                        path.iter().map(|p| [p.at.x, p.at.y]).collect()
+                    }),
+                    cost: best.cost.members().first().map_or(f64::NAN, |cost| cost[0]),
+                }
+            }),
             _ => {}
         }
     }

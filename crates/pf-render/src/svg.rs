@@ -18,7 +18,9 @@ pub(crate) fn write(picture: &Picture) -> String {
     let mut body = String::new();
     let mut y = MARGIN + page.map[1] + 10.0;
     scale_bar(&mut body, &page, y);
-    y = legend(&mut body, picture, &page, y);
+    // The scale bar stands to the right.
+    let right = page.width - MARGIN - page.bar().max(70.0);
+    y = legend(&mut body, &picture.legend, y, right);
     for (i, text) in picture.caption.iter().enumerate() {
         let size = if i == 0 { TITLE } else { FONT };
         y = paragraph(&mut body, &page, y, size, text);
@@ -42,12 +44,20 @@ pub(crate) fn write(picture: &Picture) -> String {
     out
 }
 
-/// The layers, clipped to the map, and a frame around it.
+/// The map where it belongs on the page.
 fn map(out: &mut String, picture: &Picture, page: &Page) {
-    let (left, [w, h]) = (page.left(), page.map.map(short));
+    let left = page.left();
+    let _ = writeln!(out, r#"<g transform="translate({left} {MARGIN})">"#);
+    ground(out, picture, page);
+    out.push_str("</g>\n");
+}
+
+/// The layers, clipped to the map, and a frame around it, from the map's upper left corner.
+pub(crate) fn ground(out: &mut String, picture: &Picture, page: &Page) {
+    let [w, h] = page.map.map(short);
     let _ = writeln!(
         out,
-        r#"<svg x="{left}" y="{MARGIN}" width="{w}" height="{h}">
+        r#"<svg width="{w}" height="{h}">
 <rect width="{w}" height="{h}" fill="{}"/>"#,
         palette::FREE
     );
@@ -68,18 +78,17 @@ fn map(out: &mut String, picture: &Picture, page: &Page) {
     for layer in layers {
         match layer {
             Layer::Start(p) => start(&mut markers, page.place(*p), page.marker),
-            Layer::Goal(p) => goal(&mut markers, page.place(*p), page.marker),
+            Layer::Goal(p) => goal(&mut markers, page.place(*p), page.marker, palette::GOAL),
             other => draw(out, page, other),
         }
     }
     // Markers may stick out of the map: they are drawn outside the clip.
-    let (x, y) = (left - 0.5, MARGIN - 0.5);
     let (w, h) = (short(page.map[0] + 1.0), short(page.map[1] + 1.0));
     let _ = writeln!(
         out,
         r#"</svg>
-<rect x="{x}" y="{y}" width="{w}" height="{h}" fill="none" stroke="{}"/>
-<g transform="translate({left} {MARGIN})">{markers}</g>"#,
+<rect x="-0.5" y="-0.5" width="{w}" height="{h}" fill="none" stroke="{}"/>
+{markers}"#,
         palette::FRAME
     );
 }
@@ -242,7 +251,7 @@ fn dashes(line: Line, pen: f64) -> String {
 }
 
 /// A disc.
-fn start(out: &mut String, p: [f64; 2], size: f64) {
+pub(crate) fn start(out: &mut String, p: [f64; 2], size: f64) {
     let ([x, y], r) = (p.map(short), short(size * 0.85));
     let _ = write!(
         out,
@@ -252,7 +261,7 @@ fn start(out: &mut String, p: [f64; 2], size: f64) {
 }
 
 /// A star.
-fn goal(out: &mut String, [x, y]: [f64; 2], size: f64) {
+pub(crate) fn goal(out: &mut String, [x, y]: [f64; 2], size: f64, colour: &str) {
     let mut points = String::new();
     for i in 0..10u8 {
         let radius = if i % 2 == 0 { size * 1.25 } else { size * 0.55 };
@@ -266,14 +275,13 @@ fn goal(out: &mut String, [x, y]: [f64; 2], size: f64) {
     }
     let _ = write!(
         out,
-        r##"<polygon points="{}" fill="{}" stroke="#fff" stroke-width="1.5"/>"##,
-        points.trim_end(),
-        palette::GOAL
+        r##"<polygon points="{}" fill="{colour}" stroke="#fff" stroke-width="1.5"/>"##,
+        points.trim_end()
     );
 }
 
 /// The scale, to the right.
-fn scale_bar(out: &mut String, page: &Page, top: f64) {
+pub(crate) fn scale_bar(out: &mut String, page: &Page, top: f64) {
     let (right, length) = (page.width - MARGIN, short(page.bar()));
     let (x, y, below) = (short(right - length), top - 2.0, top + 18.0);
     let words = page.frame.words(page.frame.scale());
@@ -284,13 +292,11 @@ fn scale_bar(out: &mut String, page: &Page, top: f64) {
     );
 }
 
-/// Swatches and words, in as many lines as they need; returns where it ends.
-fn legend(out: &mut String, picture: &Picture, page: &Page, top: f64) -> f64 {
-    // The scale bar stands to the right.
-    let right = page.width - MARGIN - page.bar().max(70.0);
+/// Swatches and words, in as many lines as they need up to the right edge; returns where it ends.
+pub(crate) fn legend(out: &mut String, entries: &[(Key, String)], top: f64, right: f64) -> f64 {
     let (mut x, mut y) = (MARGIN, top);
-    for (key, words) in &picture.legend {
-        let width = 28.0 + text_width(words, FONT);
+    for (key, words) in entries {
+        let width = entry_width(words);
         if x > MARGIN && x + width > right {
             x = MARGIN;
             y += LINE_HEIGHT;
@@ -308,7 +314,8 @@ fn legend(out: &mut String, picture: &Picture, page: &Page, top: f64) -> f64 {
     y + LINE_HEIGHT + 8.0
 }
 
-fn swatch(out: &mut String, key: Key, [x, y]: [f64; 2]) {
+/// What stands beside a word of the legend: 22 wide, centred on a height.
+pub(crate) fn swatch(out: &mut String, key: Key, [x, y]: [f64; 2]) {
     let x = short(x);
     match key {
         Key::Cells(fill, opacity) => {
@@ -344,12 +351,49 @@ fn swatch(out: &mut String, key: Key, [x, y]: [f64; 2]) {
             );
         }
         Key::Start => start(out, [x + 11.0, y], 7.0),
-        Key::Goal => goal(out, [x + 11.0, y], 7.0),
+        Key::Goal => goal(out, [x + 11.0, y], 7.0, palette::GOAL),
+        other => moving_swatch(out, other, [x, y]),
     }
 }
 
+/// Of what only animations show.
+fn moving_swatch(out: &mut String, key: Key, [x, y]: [f64; 2]) {
+    let _ = match key {
+        Key::Disc(colour) => write!(
+            out,
+            r#"<circle cx="{}" cy="{y}" r="5.5" fill="{colour}"/>"#,
+            x + 11.0
+        ),
+        Key::Window(colour) => write!(
+            out,
+            r#"<rect x="{}" y="{}" width="12" height="12" fill="{colour}" fill-opacity=".12" stroke="{colour}"/>"#,
+            x + 5.0,
+            y - 6.0
+        ),
+        Key::Hair(colour) => write!(
+            out,
+            r#"<path d="M{} {y}h20" stroke="{colour}" stroke-width="1.2"/>"#,
+            x + 1.0
+        ),
+        Key::Ramp(colours) => {
+            let step = 22.0 / f64::from(u32::try_from(colours.len()).unwrap_or(1));
+            for (k, colour) in (0u32..).zip(colours) {
+                let _ = write!(
+                    out,
+                    r#"<rect x="{}" y="{}" width="{}" height="13" fill="{colour}"/>"#,
+                    short(x + f64::from(k) * step),
+                    y - 6.5,
+                    short(step + 0.2)
+                );
+            }
+            Ok(())
+        }
+        _ => Ok(()),
+    };
+}
+
 /// Text in as many lines as it needs, broken at blanks; returns where it ends.
-fn paragraph(out: &mut String, page: &Page, top: f64, size: f64, text: &str) -> f64 {
+pub(crate) fn paragraph(out: &mut String, page: &Page, top: f64, size: f64, text: &str) -> f64 {
     let room = page.width - 2.0 * MARGIN;
     let mut lines: Vec<String> = Vec::new();
     for word in text.split_whitespace() {
@@ -374,6 +418,11 @@ fn paragraph(out: &mut String, page: &Page, top: f64, size: f64, text: &str) -> 
     y
 }
 
+/// How wide a swatch and its words are.
+pub(crate) fn entry_width(words: &str) -> f64 {
+    28.0 + text_width(words, FONT)
+}
+
 /// About how wide a text is, on the generous side: three widths of letters are enough to place it.
 fn text_width(text: &str, size: f64) -> f64 {
     let width = |letter| match letter {
@@ -387,7 +436,7 @@ fn text_width(text: &str, size: f64) -> f64 {
 }
 
 /// Text as XML may hold it; characters XML has no place for are left out.
-fn escaped(text: &str) -> String {
+pub(crate) fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -1,13 +1,12 @@
 //! Fronts of plans for teams: the objectives in pairs, a plan's paths, and where robots are when.
 
+use crate::palette;
 use pf_core::Front;
 use pf_geom::{Objectives, Point, Shape, TeamPlan, TeamProblem};
 use std::fmt::Write;
 
-/// Colours of robots and of named members (Okabe and Ito).
-const COLOURS: [&str; 6] = [
-    "#d55e00", "#0072b2", "#009e73", "#cc79a7", "#e69f00", "#56b4e9",
-];
+/// Colours of robots and of named members.
+const COLOURS: [&str; 6] = palette::ROBOTS;
 const NAMES: [&str; 3] = ["length", "danger", "turning, degrees"];
 /// The pairs of objectives that are drawn: across and up.
 const PAIRS: [(usize, usize); 3] = [(0, 1), (0, 2), (1, 2)];

@@ -1,5 +1,6 @@
 //! The program as its users see it: what it prints, what it writes, how it ends.
 
+mod animations;
 mod answers;
 mod benches;
 mod conversions;
