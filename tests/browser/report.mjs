@@ -52,6 +52,10 @@ const browser = await chromium.launchPersistentContext(profile, {
     "--disable-component-update",
     "--disable-sync",
   ],
+}).catch((error) => {
+  // Not a fault of the pages: whoever started this says that nothing was looked at.
+  console.error(`the browser does not start: ${error.message}`);
+  process.exit(77);
 });
 
 // What a film shows now: its cells, what is over them, and what is said.

@@ -13,6 +13,9 @@ fn missing(what: &str) -> Verdict {
     Verdict::Passed
 }
 
+/// How `report.mjs` ends if the browser does not start.
+const NO_BROWSER: i32 = 77;
+
 /// Builds the demo and a few animations and runs `tests/browser/report.mjs` on them.
 pub(crate) fn run() -> Result<Verdict> {
     let browser = env::var_os("CHROMIUM").unwrap_or_else(|| "/usr/bin/chromium".into());
@@ -55,7 +58,12 @@ pub(crate) fn run() -> Result<Verdict> {
     if let Some(shots) = env::var_os("SHOTS") {
         look.arg("--shots").arg(shots);
     }
-    passes(look.args(pages).current_dir(tests).env("CHROMIUM", browser))
+    let looked = look.args(pages).current_dir(tests).env("CHROMIUM", browser);
+    let status = looked.status().context("cannot start node")?;
+    Ok(match status.code() {
+        Some(NO_BROWSER) => missing("a chromium that starts"),
+        _ => Verdict::passed_if(status.success()),
+    })
 }
 
 /// One of a search with cells, one with a swarm, one of a scenario in time, one of a drive.
