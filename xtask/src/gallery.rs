@@ -61,6 +61,18 @@ const PIECES: &[Piece] = &[
         option: "--png",
     },
     Piece {
+        file: "ants.gif",
+        caption: "Ants (ACO\\*) on the paper's mosaic: pheromone gathers where ways are short.",
+        args: "animate maps/grids/redlarski/mosaic-50.map --from 1,27 --to 48,27 --planner aco-star --iterations 60",
+        option: "-o",
+    },
+    Piece {
+        file: "team.gif",
+        caption: "The plan of the knee, driven: robots that cross and never meet.",
+        args: "animate maps/scenarios/three-robots.toml --evaluations 20000 --size 360x360",
+        option: "-o",
+    },
+    Piece {
         file: "drive.png",
         caption: "D\\* Lite drives through a maze it does not know, replanning at every discovery.",
         args: "drive maps/grids/redlarski/maze-100.map --sensor 10",
