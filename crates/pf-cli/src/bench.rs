@@ -162,6 +162,16 @@ fn words(suite: &Suite, done: &Done, out: &std::path::Path) -> String {
 
 fn merge(args: &MergeArgs) -> Result<Status, Failure> {
     let lines = gather(&args.folders)?;
+    let place = |path: &PathBuf| path.canonicalize().ok();
+    let among = args
+        .folders
+        .iter()
+        .any(|path| place(path) == place(&args.out));
+    if folder::holds_runs(&args.out) && !among {
+        let message = format!("{} holds runs that are not merged", args.out.display());
+        let help = "name it among the folders, too, or write to another one";
+        return Err(Failure::usage(message).help(help));
+    }
     folder::write(&args.out, &lines).map_err(failure)?;
     let (runs, out) = (lines.len(), args.out.display());
     writeln!(stdout().lock(), "{runs} runs are in {out}/")?;

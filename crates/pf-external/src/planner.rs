@@ -21,6 +21,9 @@ const SHOWN: usize = 80;
 /// How far a stated cost may be from the judge's, as a share: programs round what they print.
 const ROUNDING: f64 = 1e-6;
 
+/// How long a program may take to say who it is, before anybody could set a limit.
+const INTRODUCTION: Duration = Duration::from_mins(1);
+
 /// How an [`External`] planner is asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ExternalParams {
@@ -95,8 +98,7 @@ impl Introduction {
     /// # Errors
     /// [`Fault`] if it does not start or does not say so.
     pub fn of(command: &str) -> Result<Self, Fault> {
-        let limit = ExternalParams::default().limit;
-        let (_, hello) = greet(command, Duration::from_secs_f64(limit))?;
+        let (_, hello) = greet(command, INTRODUCTION)?;
         Ok(Self {
             claims: hello.claims(),
             name: hello.name,
@@ -223,6 +225,7 @@ impl<P: Wire> Planner<P> for External<P> {
             Ok(Err(fault)) | Err(Silence::Fault(fault)) => fault,
             Err(Silence::Unwanted) => return Ok(cx.report(nothing)),
         };
+        self.program = None;
         // A budget that ends kills the program, too: that is no fault of its.
         if !cx.is_over() {
             cx.note(FAULT, format!("{} {fault}", self.name));

@@ -45,7 +45,14 @@ impl Program {
         let Some((name, args)) = words.split_first() else {
             return Err(failed("expected a command".into()));
         };
-        let mut child = Command::new(name)
+        let mut program = Command::new(name);
+        #[cfg(unix)]
+        {
+            // What it starts itself goes with it.
+            use std::os::unix::process::CommandExt;
+            program.process_group(0);
+        }
+        let mut child = program
             .args(args)
             .stdin(Stdio::piped())
             .stdout(Stdio::piped())
@@ -120,7 +127,12 @@ impl Program {
 
 impl Drop for Program {
     fn drop(&mut self) {
-        // It may have ended already.
+        // It may have ended already, or have left others behind.
+        #[cfg(unix)]
+        let _ = rustix::process::kill_process_group(
+            rustix::process::Pid::from_child(&self.child),
+            rustix::process::Signal::KILL,
+        );
         let _ = self.child.kill();
         let _ = self.child.wait();
     }
@@ -139,7 +151,8 @@ fn writer(mut to: impl Write + Send + 'static) -> mpsc::Sender<Vec<u8>> {
 }
 
 fn reader(from: impl Read + Send + 'static) -> mpsc::Receiver<Vec<u8>> {
-    let (lines, answers) = mpsc::channel();
+    // Who says more than it was asked for waits until somebody listens.
+    let (lines, answers) = mpsc::sync_channel(1);
     thread::spawn(move || {
         let mut from = BufReader::new(from);
         loop {

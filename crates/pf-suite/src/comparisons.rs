@@ -51,6 +51,23 @@ pub fn wilcoxon(differences: &[f64]) -> f64 {
     libm::erfc(off / variance.sqrt() / std::f64::consts::SQRT_2).min(1.0)
 }
 
+/// To which side the test leans: positive if the positive differences have the greater ranks together.
+pub(crate) fn leaning(differences: &[f64]) -> f64 {
+    let mut sorted: Vec<f64> = differences
+        .iter()
+        .copied()
+        .filter(|d| d.abs() > 0.0)
+        .collect();
+    sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+    let (mut sum, mut before) = (0.0, 0);
+    for equal in sorted.chunk_by(|a, b| a.abs().total_cmp(&b.abs()).is_eq()) {
+        let rank = float(2 * before + equal.len() + 1);
+        sum += equal.iter().map(|d| rank * d.signum()).sum::<f64>();
+        before += equal.len();
+    }
+    sum
+}
+
 /// The share of all choices of signs that are as extreme as this sum of doubled ranks.
 fn exact(ranks: &[usize], positive: usize) -> f64 {
     let total: usize = ranks.iter().sum();
@@ -130,7 +147,9 @@ pub fn friedman(problems: &[Vec<f64>]) -> Option<Friedman> {
         let f = FisherSnedecor::new(k - 1.0, (k - 1.0) * (n - 1.0)).ok()?;
         f.sf(statistic)
     } else {
-        0.0
+        // All problems agree: as likely as that the others repeat the first one's order (Conover 1999).
+        let orders: f64 = (1..=contenders).map(float).product();
+        orders.powf(1.0 - n)
     };
     Some(Friedman {
         ranks: sums.iter().map(|sum| sum / n).collect(),
@@ -248,6 +267,22 @@ mod tests {
         assert_eq!(friedman(&[vec![1.0, 2.0]]), None);
         let equal = friedman(&[vec![1.0; 3], vec![2.0; 3]]).unwrap();
         assert!(equal.p > 0.99 && equal.p_iman_davenport > 0.99);
+    }
+
+    #[test]
+    fn problems_that_all_agree_are_as_many_as_they_are() {
+        let p = |n: usize| friedman(&vec![vec![1.0, 2.0]; n]).unwrap().p_iman_davenport;
+        assert!((p(2) - 0.5).abs() < 1e-12 && (p(3) - 0.25).abs() < 1e-12);
+    }
+
+    #[test]
+    fn the_verdict_is_that_of_the_ranks_and_not_of_the_counts() {
+        // More of the small ones are negative; the large ones decide.
+        let differences: Vec<f64> = (1..=27)
+            .map(|d| f64::from(if d <= 14 { -d } else { d }))
+            .collect();
+        assert!(wilcoxon(&differences) < 0.05 && leaning(&differences) > 0.0);
+        assert!(leaning(&[1.0, -1.0]).abs() < 1e-15 && leaning(&[]).abs() < 1e-15);
     }
 
     #[test]

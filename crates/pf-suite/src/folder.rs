@@ -35,25 +35,42 @@ impl Folder {
     /// [`SuiteError`] if it cannot be made, read or written, somebody else has it open, or a line is
     /// no result.
     pub fn open(path: &Path) -> Result<(Self, Vec<Line>), SuiteError> {
+        let (mut folder, file) = Self::locked(path)?;
+        let log = &mut folder.log;
+        let mut text = Vec::new();
+        log.read_to_end(&mut text)
+            .map_err(|error| FileError::io(&file, "read", error))?;
+        let (lines, whole) = parse(&file, &text)?;
+        let cut = log.set_len(whole).and_then(|()| log.seek(SeekFrom::End(0)));
+        cut.map_err(|error| FileError::io(&file, "written", error))?;
+        Ok((folder, lines))
+    }
+
+    /// Opens a folder and forgets all that it holds, readable or not.
+    ///
+    /// # Errors
+    /// As [`open`](Self::open), but for what the folder holds.
+    pub fn open_afresh(path: &Path) -> Result<Self, SuiteError> {
+        let (mut folder, _) = Self::locked(path)?;
+        folder.clear()?;
+        Ok(folder)
+    }
+
+    /// The folder with its log, which nobody else may use now.
+    fn locked(path: &Path) -> Result<(Self, PathBuf), SuiteError> {
         fs::create_dir_all(path).map_err(|error| FileError::io(path, "made", error))?;
         let file = path.join(LOG);
         let written = |error| FileError::io(&file, "written", error);
         let mut options = OpenOptions::new();
         let options = options.read(true).write(true).create(true).truncate(false);
-        let mut log = options.open(&file).map_err(written)?;
+        let log = options.open(&file).map_err(written)?;
         match log.try_lock() {
             Err(TryLockError::WouldBlock) => return Err(SuiteError::InUse(path.to_owned())),
             // Where a file system knows no locks, there are none.
             Ok(()) | Err(TryLockError::Error(_)) => {}
         }
-        let mut text = Vec::new();
-        log.read_to_end(&mut text)
-            .map_err(|error| FileError::io(&file, "read", error))?;
-        let (lines, whole) = parse(&file, &text)?;
-        log.set_len(whole).map_err(written)?;
-        log.seek(SeekFrom::End(0)).map_err(written)?;
         let path = path.to_owned();
-        Ok((Self { path, log }, lines))
+        Ok((Self { path, log }, file))
     }
 
     /// Forgets all that the folder holds.
@@ -179,12 +196,19 @@ fn spoken((suite, problem, planner, variant, seed): Name<'_>) -> String {
     format!("{suite}: {planner}{variant} on {problem}, seed {seed}")
 }
 
+/// Whether a folder holds runs, finished or not.
+#[must_use]
+pub fn holds_runs(path: &Path) -> bool {
+    fs::metadata(path.join(LOG)).is_ok_and(|log| log.len() > 0)
+}
+
 /// Writes runs as a folder of their own.
 ///
 /// # Errors
 /// [`SuiteError`] if they cannot be written; each file is written whole or not at all.
 pub fn write(path: &Path, lines: &[Line]) -> Result<(), SuiteError> {
-    fs::create_dir_all(path).map_err(|error| FileError::io(path, "made", error))?;
+    // Nobody may add to what is replaced.
+    let (_held, _) = Folder::locked(path)?;
     let log: Vec<String> = lines.iter().map(json).collect::<Result<_, _>>()?;
     put(&path.join(LOG), &log)?;
     finish(path, lines)

@@ -169,6 +169,10 @@ fn on_scene(
     };
     let (answer, rasterised, claims) = match plan(None) {
         Ok(answered) => answered,
+        // A program that does not start has failed, and did not say that the problem is not for it.
+        Err(why) if contender.planner.starts_with("external:") => {
+            return Outcome::none("failed", why);
+        }
         Err(why) => return Outcome::none("declined", why),
     };
     let mut answer = answer;

@@ -56,11 +56,12 @@ fn quantile(sorted: &[f64], share: f64) -> f64 {
     let place = share * (sorted.len() - 1) as f64;
     let below = place as usize;
     let above = (below + 1).min(sorted.len() - 1);
-    if sorted[below].total_cmp(&sorted[above]).is_eq() {
-        // Infinities, too.
+    let part = place - below as f64;
+    // Infinities are values, too, and nothing times one is none.
+    if part <= 0.0 || sorted[below].total_cmp(&sorted[above]).is_eq() {
         return sorted[below];
     }
-    sorted[below] + (sorted[above] - sorted[below]) * (place - below as f64)
+    sorted[below] + (sorted[above] - sorted[below]) * part
 }
 
 /// The interval in which the rate behind `hits` of `runs` lies with 95 % confidence.
@@ -151,5 +152,16 @@ mod tests {
             ["100", "175", "250", "325", "400"]
         );
         assert_eq!(Spread::of([]), None);
+    }
+
+    #[test]
+    fn a_median_among_those_that_never_arrive_is_one_that_did_or_none() {
+        let median = |values: &[f64]| Spread::of(values.iter().copied()).unwrap().median;
+        assert_eq!(median(&[1.0, f64::INFINITY, 2.0]).to_string(), "2");
+        assert_eq!(median(&[1.0, f64::INFINITY]).to_string(), "inf");
+        assert_eq!(
+            median(&[1.0, f64::INFINITY, f64::INFINITY]).to_string(),
+            "inf"
+        );
     }
 }

@@ -15,6 +15,9 @@ use std::{path::Path, time::Duration};
 /// The most runs of a suite.
 const MOST_RUNS: usize = 10_000_000;
 
+/// The most choices of parameters of a planner.
+const MOST_CHOICES: usize = 10_000;
+
 /// A suite, read and checked.
 #[derive(Debug)]
 pub struct Suite {
@@ -260,7 +263,13 @@ fn planner(
         if values.is_empty() {
             return Err(value.error("one value at least"));
         }
-        let mut more = Vec::with_capacity(choices.len() * values.len());
+        let count = choices.len().saturating_mul(values.len());
+        if count > MOST_CHOICES || count.saturating_mul(seeds.len()) > MOST_RUNS {
+            let what =
+                format!("at most {MOST_CHOICES} choices of parameters, and {MOST_RUNS} runs");
+            return Err(value.error(what));
+        }
+        let mut more = Vec::with_capacity(count);
         for (settings, words) in &choices {
             for one in &values {
                 let scalar = one.scalar()?;
@@ -272,9 +281,6 @@ fn planner(
                 settings.push((key.to_owned(), scalar));
                 more.push((settings, words));
             }
-        }
-        if more.len() > 10_000 {
-            return Err(value.error("at most 10000 choices of parameters"));
         }
         choices = more;
     }

@@ -105,11 +105,11 @@ pub fn run(
     plan: &Plan,
     tell: &mut dyn FnMut(usize, usize, Option<&Line>),
 ) -> Result<Done, SuiteError> {
-    let (mut folder, mut lines) = Folder::open(folder)?;
-    if plan.afresh {
-        folder.clear()?;
-        lines.clear();
-    }
+    let (mut folder, mut lines) = if plan.afresh {
+        (Folder::open_afresh(folder)?, Vec::new())
+    } else {
+        Folder::open(folder)?
+    };
     let all = suite.jobs();
     let known = places(suite, &all);
     let strange = lines.iter().filter(|line| place(&known, line).is_none());
@@ -140,6 +140,10 @@ pub fn run(
     let work = |k: usize| solve(suite, &all[left[k]], &plan.cancel);
     spread(plan.threads, left.len(), work, |_, line| {
         let Some(line) = line else { return false };
+        // What another thread still hands over has no place after a torn line.
+        if failed.is_some() {
+            return false;
+        }
         if let Err(error) = folder.add(&line) {
             failed = Some(error);
             return false;

@@ -143,8 +143,18 @@ fn look(grid: &Grid, at: Cell, sensor: f64, seen: &mut [bool], shot: &mut Shot) 
     )]
     let reach = (sensor as u32).max(1);
     let most = f64::from(grid.cost_range().1).ln().max(f64::MIN_POSITIVE);
-    for y in at.y.saturating_sub(reach)..at.y.saturating_add(reach + 1).min(grid.height()) {
-        for x in at.x.saturating_sub(reach)..at.x.saturating_add(reach + 1).min(grid.width()) {
+    for y in at.y.saturating_sub(reach)
+        ..at.y
+            .saturating_add(reach)
+            .saturating_add(1)
+            .min(grid.height())
+    {
+        for x in at.x.saturating_sub(reach)
+            ..at.x
+                .saturating_add(reach)
+                .saturating_add(1)
+                .min(grid.width())
+        {
             let (dx, dy) = (at.x.abs_diff(x), at.y.abs_diff(y));
             let far = f64::from(dx).hypot(f64::from(dy));
             let place = y as usize * grid.width() as usize + x as usize;

@@ -208,8 +208,10 @@ fn ctrl_c_leaves_no_file() {
     let more = [
         "--planner",
         "rfd-star",
-        "--iterations",
-        "1000000000",
+        "--set",
+        "iterations=1000000000",
+        "--set",
+        "patience=0",
         "-o",
         &out,
     ];

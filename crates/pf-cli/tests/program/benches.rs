@@ -126,6 +126,15 @@ fn threads_shards_and_merging_change_nothing() {
     let words: Vec<&str> = merge.iter().map(String::as_str).collect();
     pf(&words).ends(0);
     folder.same("one", "merged");
+    // What a folder holds is not lost to a merge of others.
+    let over = [
+        "bench",
+        "merge",
+        &folder.name("merged"),
+        "-o",
+        &folder.name("one"),
+    ];
+    pf(&over).ends(2).says(&["holds runs that are not merged"]);
     // What is merged is a folder like any other: all is there already.
     let run = folder.bench("merged", &[]).ends(0);
     assert!(run.out.contains("43 were there already"), "{}", run.out);

@@ -92,7 +92,7 @@ impl Gallery {
             drawn(problem, marks[start].plan, &page),
             svg::escaped(&marks[start].words),
             charts.concat(),
-            data.replace("</", "<\\/")
+            data.replace('<', "\\u003c")
         )
     }
 }

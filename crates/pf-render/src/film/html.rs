@@ -140,7 +140,7 @@ fn figure(film: &Film, page: &Page, data: &Value) -> String {
         .as_array()
         .and_then(|all| all.last()?.as_str());
     // JSON may hold what ends a script.
-    let json = data.to_string().replace("</", "<\\/");
+    let json = data.to_string().replace('<', "\\u003c");
     // A picture has nothing to play.
     let hidden = if count < 2 { " hidden" } else { "" };
     format!(

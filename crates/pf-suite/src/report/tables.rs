@@ -5,7 +5,7 @@ use super::{
     table::{Table, p_value, percent, short, time, within},
 };
 use crate::{
-    comparisons::{Friedman, critical_difference, friedman, holm, wilcoxon},
+    comparisons::{Friedman, critical_difference, friedman, holm, leaning, wilcoxon},
     record::Line,
     statistics::{Spread, median_interval, wilson},
 };
@@ -181,6 +181,8 @@ struct Pair {
     equal: usize,
     worse: usize,
     p: f64,
+    /// Below 0 where the test finds the first the cheaper one.
+    leans: f64,
 }
 
 impl Pair {
@@ -196,6 +198,7 @@ impl Pair {
             equal: count(std::cmp::Ordering::Equal),
             worse: count(std::cmp::Ordering::Greater),
             p: wilcoxon(&differences),
+            leans: leaning(&differences),
         }
     }
 }
@@ -204,7 +207,7 @@ fn rows_of(pairs: Vec<Pair>) -> Vec<Vec<String>> {
     let corrected = holm(&pairs.iter().map(|pair| pair.p).collect::<Vec<_>>());
     let row = |(pair, corrected): (Pair, f64)| {
         let counts = [pair.better, pair.equal, pair.worse].map(|n| n.to_string());
-        let verdict = match (corrected < 0.05, pair.better > pair.worse) {
+        let verdict = match (corrected < 0.05, pair.leans < 0.0) {
             (false, _) => "",
             (true, true) => "better",
             (true, false) => "worse",
