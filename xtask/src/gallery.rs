@@ -50,8 +50,8 @@ const PIECES: &[Piece] = &[
     },
     Piece {
         file: "rivers.png",
-        caption: "What the drops of RFD\\* looked at on the paper's mosaic.",
-        args: "plan maps/grids/redlarski/mosaic-50.map --planner rfd-star --from 0,0 --to 49,49 --show-expanded",
+        caption: "What RFD\\* finds on the paper's mosaic with the paper's parameters: a way, and not the shortest.",
+        args: "plan maps/grids/redlarski/mosaic-50.map --planner rfd-star --from 0,0 --to 49,49",
         option: "--png",
     },
     Piece {

@@ -1,7 +1,6 @@
 //! What can be set.
 
-use pf_core::{InvalidParams, params};
-use std::{fmt, str::FromStr};
+use pf_core::{InvalidParams, params, words};
 
 /// How far it is to the goal (f1, eq. 1; the text at hand shows neither squares nor root).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -148,27 +147,13 @@ impl AbcParams {
 
     /// Refuses what makes no sense.
     pub(crate) fn check(&self) -> Result<(), InvalidParams> {
-        let refuse = |key: &str, value: String, expected: &str| {
-            Err(InvalidParams::bad(key, &value, expected))
-        };
-        if !(2..=100_000).contains(&self.sources) {
-            let expected = "a whole number from 2 to 100000";
-            return refuse("sources", self.sources.to_string(), expected);
-        }
-        if self.cycles > 100_000 {
-            let expected = "a whole number from 0 to 100000";
-            return refuse("cycles", self.cycles.to_string(), expected);
-        }
-        if self.delay > 1000 {
-            let expected = "a whole number from 0 to 1000";
-            return refuse("delay", self.delay.to_string(), expected);
-        }
-        if !(self.half > 0.0 && self.half.is_finite()) {
-            return refuse("half", self.half.to_string(), "a positive number");
-        }
-        if !(0.25..=16.0).contains(&self.reach) {
-            return refuse("reach", self.reach.to_string(), "a number from 0.25 to 16");
-        }
+        InvalidParams::unless_whole("sources", self.sources, 2..=100_000)?;
+        InvalidParams::unless_whole("cycles", self.cycles, 0..=100_000)?;
+        InvalidParams::unless_whole("delay", self.delay, 0..=1000)?;
+        let positive = self.half > 0.0 && self.half.is_finite();
+        InvalidParams::unless("half", self.half, positive, "a positive number")?;
+        let fine = (0.25..=16.0).contains(&self.reach);
+        InvalidParams::unless("reach", self.reach, fine, "a number from 0.25 to 16")?;
         for (key, value) in [
             ("w1", self.w1),
             ("w2", self.w2),
@@ -176,36 +161,11 @@ impl AbcParams {
             ("memory", self.memory),
             ("limit", self.limit),
         ] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return refuse(key, value.to_string(), "a number from 0");
-            }
+            let fine = value >= 0.0 && value.is_finite();
+            InvalidParams::unless(key, value, fine, "a number from 0")?;
         }
         Ok(())
     }
-}
-
-/// An enum by the words for its values.
-macro_rules! words {
-    ($kind:ident { $($word:literal = $value:ident),* }) => {
-        impl FromStr for $kind {
-            type Err = String;
-
-            fn from_str(text: &str) -> Result<Self, String> {
-                match text {
-                    $($word => Ok(Self::$value),)*
-                    _ => Err([$($word),*].join(", ")),
-                }
-            }
-        }
-
-        impl fmt::Display for $kind {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(match self {
-                    $(Self::$value => $word),*
-                })
-            }
-        }
-    };
 }
 
 words!(Distance { "euclidean" = Euclidean, "manhattan" = Manhattan });

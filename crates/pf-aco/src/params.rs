@@ -2,7 +2,6 @@
 
 use pf_core::{InvalidParams, params};
 use pf_grid::SwarmRules;
-use std::fmt::Display;
 
 /// What an [`Aco`](crate::Aco) does. None of the values is published.
 #[derive(Clone, Debug, PartialEq)]
@@ -163,32 +162,22 @@ impl AcoParams {
     pub(crate) fn check(&self) -> Result<(), InvalidParams> {
         let positive = |x: f64| x > 0.0 && x.is_finite();
         let number = "a positive number";
-        within(
-            "ants",
-            self.ants,
-            (1..=65_536).contains(&self.ants),
-            "a whole number from 1 to 65536",
-        )?;
-        within(
+        InvalidParams::unless_whole("ants", self.ants, 1..=65_536)?;
+        InvalidParams::unless(
             "iterations",
             self.iterations,
             self.iterations > 0,
             "a whole number from 1",
         )?;
-        within("q", self.q, positive(self.q), number)?;
-        within(
+        InvalidParams::unless("q", self.q, positive(self.q), number)?;
+        InvalidParams::unless(
             "rho",
             self.rho,
             (0.0..=1.0).contains(&self.rho),
             "a number from 0 to 1",
         )?;
-        within("tau0", self.tau0, positive(self.tau0), number)?;
-        within(
-            "threads",
-            self.threads,
-            (1..=256).contains(&self.threads),
-            "a whole number from 1 to 256",
-        )
+        InvalidParams::unless("tau0", self.tau0, positive(self.tau0), number)?;
+        InvalidParams::unless_whole("threads", self.threads, 1..=256)
     }
 
     pub(crate) fn rules(&self) -> SwarmRules {
@@ -201,17 +190,4 @@ impl AcoParams {
             remember: self.tabu,
         }
     }
-}
-
-/// Refuses the parameter unless it is `fine`.
-pub(crate) fn within(
-    key: &str,
-    value: impl Display,
-    fine: bool,
-    expected: &str,
-) -> Result<(), InvalidParams> {
-    if fine {
-        return Ok(());
-    }
-    Err(InvalidParams::bad(key, &value.to_string(), expected))
 }

@@ -1,6 +1,6 @@
 //! The Ant System and ACO*, as planners.
 
-use crate::{AcoParams, AcoStarParams, params::within, trails::Trails};
+use crate::{AcoParams, AcoStarParams, trails::Trails};
 use pf_core::{
     Claims, Context, InvalidParams, Planner, Problem, Replanner, Report, Revision, Stamp,
     Unsupported,
@@ -150,7 +150,7 @@ impl AcoStar {
     /// [`InvalidParams`] with the first parameter that is out of its range.
     pub fn new(params: AcoStarParams) -> Result<Self, InvalidParams> {
         let alpha = params.alpha;
-        within(
+        InvalidParams::unless(
             "alpha",
             alpha,
             (0.0..=64.0).contains(&alpha),

@@ -4,6 +4,7 @@
 //! that is busy is busy for all of them. A query is asked several times and its least time counts;
 //! over queries there are medians and geometric means. Every answer is checked.
 
+mod beside;
 mod cases;
 mod contenders;
 mod drive;

@@ -4,7 +4,7 @@
 //! and so many places decides there what to do next. Allocations are counted by the program beside.
 
 use crate::{
-    Counter,
+    Counter, beside,
     protocol::{json, say, timed},
     worlds,
 };
@@ -15,7 +15,6 @@ use pf_core::{Context, LocalPlanner, Observable, PlanRng};
 use pf_geom::{Observation, Point, Vector, World, WorldProblem};
 use rand::RngExt;
 use serde::{Deserialize, Serialize};
-use std::{env, path::Path, process::Command};
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
@@ -255,14 +254,5 @@ fn count(args: &Args, counter: Counter) -> Result<()> {
 }
 
 fn ask() -> Option<Count> {
-    let beside = env::current_exe()
-        .ok()?
-        .with_file_name(Path::new("pf-bench-allocations"));
-    let program = beside.with_extension(env::consts::EXE_EXTENSION);
-    let output = Command::new(program)
-        .args(env::args_os().skip(1))
-        .output()
-        .ok()?;
-    let text = String::from_utf8(output.stdout).ok()?;
-    serde_json::from_str(text.lines().next()?).ok()
+    serde_json::from_str(beside::said()?.lines().next()?).ok()
 }

@@ -49,40 +49,40 @@ pub struct Auto {
     known: Option<Stamp>,
 }
 
-/// What a map looks like.
-#[derive(Clone, Copy, Debug)]
+/// What a map looks like, and what that means.
+#[derive(Clone, Debug)]
 struct Survey {
-    free: u64,
-    blocked: u64,
-    /// Blocked cells that touch at most one other along a side.
-    lone: u64,
-    /// How often a straight run would have to stop at a free cell, by direction.
-    turns: u64,
+    /// Whether obstacles are single cells strewn about, so many that runs are short.
+    strewn: bool,
+    /// The same in words.
+    why: String,
 }
 
 impl Survey {
+    /// Measured on made-up maps (cells at random from 2 to 40 %, rectangles, mazes): A* is the faster
+    /// one from 15 % on, at 1.4 turns a cell, where nearly all obstacles are alone, and at 40 % still
+    /// half of them; a maze whose corridors are one cell wide has 2.6 turns a cell, and few are.
     fn of(grid: &Grid, jps: &mut Jps, problem: &GridProblem) -> Self {
         let layout = grid.layout();
+        // Blocked cells that touch at most one other along a side.
         let lone = layout.cells().filter(|&cell| {
             let id = layout.id(cell);
             !grid.is_free_id(id) && (grid.around_id(id) & 0x0f).count_ones() >= 3
         });
+        let lone = lone.count() as u64;
         let free = u64::from(grid.free_cells());
-        Self {
-            free,
-            blocked: u64::from(grid.width()) * u64::from(grid.height()) - free,
-            lone: lone.count() as u64,
-            turns: jps.turns(problem),
-        }
-    }
-
-    /// Whether obstacles are single cells strewn about, so many that runs are short.
-    ///
-    /// Measured on made-up maps (cells at random from 2 to 40 %, rectangles, mazes): A* is the faster
-    /// one from 15 % on, at 1.4 turns a cell, where nearly all obstacles are alone, and at 40 % still
-    /// half of them; a maze whose corridors are one cell wide has 2.6 turns a cell, and few are.
-    fn is_strewn(&self) -> bool {
-        self.turns * 5 > self.free * 6 && self.lone * 4 > self.blocked
+        let blocked = u64::from(grid.width()) * u64::from(grid.height()) - free;
+        // How often a straight run would have to stop at a free cell, by direction.
+        let turns = jps.turns(problem);
+        let strewn = turns * 5 > free * 6 && lone * 4 > blocked;
+        #[expect(clippy::cast_precision_loss, reason = "a number to be read")]
+        let each = turns as f64 / free.max(1) as f64;
+        let why = if strewn {
+            format!("astar: strewn obstacles, {each:.2} turns a cell")
+        } else {
+            format!("jps: {each:.2} turns a cell")
+        };
+        Self { strewn, why }
     }
 }
 
@@ -102,7 +102,7 @@ impl Auto {
     }
 
     /// What a problem's grid looks like; `None` if it has terrain.
-    fn survey(&mut self, problem: &GridProblem) -> Option<Survey> {
+    fn survey(&mut self, problem: &GridProblem) -> Option<&Survey> {
         let grid = problem.grid();
         if !grid.is_uniform() {
             return None;
@@ -111,13 +111,12 @@ impl Auto {
             self.survey = Some(Survey::of(grid, &mut self.jps, problem));
             (self.surveyed, self.changed) = (Some(grid.stamp()), 0);
         }
-        self.survey
+        self.survey.as_ref()
     }
 
     /// Whether jump points serve a problem's grid well.
     pub(crate) fn jumps(&mut self, problem: &GridProblem) -> bool {
-        self.survey(problem)
-            .is_some_and(|survey| !survey.is_strewn())
+        self.survey(problem).is_some_and(|survey| !survey.strewn)
     }
 
     /// Whether to jump, and says why.
@@ -126,16 +125,8 @@ impl Auto {
             cx.note("search", "astar: terrain");
             return false;
         };
-        #[expect(clippy::cast_precision_loss, reason = "a number to be read")]
-        let turns = survey.turns as f64 / survey.free.max(1) as f64;
-        let strewn = survey.is_strewn();
-        let why = if strewn {
-            format!("astar: strewn obstacles, {turns:.2} turns a cell")
-        } else {
-            format!("jps: {turns:.2} turns a cell")
-        };
-        cx.note("search", why);
-        !strewn
+        cx.note("search", survey.why.as_str());
+        !survey.strewn
     }
 }
 

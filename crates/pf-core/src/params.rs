@@ -1,5 +1,7 @@
 //! Parameters by name, for command lines and scenario files, without serde.
 
+use std::{fmt, ops::RangeInclusive};
+
 /// One parameter that [`Params::set`] knows.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Key {
@@ -74,6 +76,45 @@ impl InvalidParams {
             expected: expected.into(),
         }
     }
+
+    /// Refuses a value that is not `fine`.
+    ///
+    /// # Errors
+    /// [`BadValue`](Self::BadValue) then.
+    pub fn unless(
+        key: &str,
+        value: impl fmt::Display,
+        fine: bool,
+        expected: &str,
+    ) -> Result<(), Self> {
+        if fine {
+            return Ok(());
+        }
+        Err(Self::bad(key, &value.to_string(), expected))
+    }
+
+    /// Refuses a whole number out of a range.
+    ///
+    /// # Errors
+    /// [`BadValue`](Self::BadValue) then, with the range.
+    ///
+    /// ```
+    /// # use pf_core::InvalidParams;
+    /// assert_eq!(InvalidParams::unless_whole("ants", 5, 1..=9), Ok(()));
+    /// let error = InvalidParams::unless_whole("ants", 0, 1..=9).unwrap_err();
+    /// assert_eq!(error.to_string(), "parameter `ants`: `0` is not a whole number from 1 to 9");
+    /// ```
+    pub fn unless_whole<T: Copy + PartialOrd + fmt::Display>(
+        key: &str,
+        value: T,
+        range: RangeInclusive<T>,
+    ) -> Result<(), Self> {
+        if range.contains(&value) {
+            return Ok(());
+        }
+        let expected = format!("a whole number from {} to {}", range.start(), range.end());
+        Err(Self::bad(key, &value.to_string(), expected))
+    }
 }
 
 fn list(keys: &[Key]) -> String {
@@ -121,6 +162,42 @@ macro_rules! params {
                     })*
                     _ => Err($crate::InvalidParams::unknown::<Self>(key)),
                 }
+            }
+        }
+    };
+}
+
+/// Gives an enum words for its values, to be read and written.
+///
+/// ```
+/// # use pf_core::words;
+/// #[derive(Debug, PartialEq)]
+/// enum Size { Small, Large }
+/// words!(Size { "small" = Small, "large" = Large });
+///
+/// assert_eq!("large".parse(), Ok(Size::Large));
+/// assert_eq!(Size::Small.to_string(), "small");
+/// assert_eq!("huge".parse::<Size>(), Err("small, large".to_owned()));
+/// ```
+#[macro_export]
+macro_rules! words {
+    ($kind:ident { $($word:literal = $value:ident),* $(,)? }) => {
+        impl ::core::str::FromStr for $kind {
+            type Err = String;
+
+            fn from_str(text: &str) -> Result<Self, String> {
+                match text {
+                    $($word => Ok(Self::$value),)*
+                    _ => Err([$($word),*].join(", ")),
+                }
+            }
+        }
+
+        impl ::core::fmt::Display for $kind {
+            fn fmt(&self, f: &mut ::core::fmt::Formatter<'_>) -> ::core::fmt::Result {
+                f.write_str(match self {
+                    $(Self::$value => $word),*
+                })
             }
         }
     };

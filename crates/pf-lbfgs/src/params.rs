@@ -1,7 +1,6 @@
 //! What can be set.
 
-use pf_core::{InvalidParams, params};
-use std::{fmt, ops::RangeInclusive, str::FromStr};
+use pf_core::{InvalidParams, params, words};
 
 /// By which rules a [`Lbfgs`](crate::Lbfgs) plans.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -110,68 +109,24 @@ impl LbfgsParams {
 
     /// Refuses what makes no sense.
     pub(crate) fn check(&self) -> Result<(), InvalidParams> {
-        whole("points", self.points as u64, 1..=1_000_000)?;
-        whole("memory", self.memory as u64, 0..=1000)?;
-        whole("iterations", self.iterations, 0..=u64::MAX)?;
-        let share = |v: f64| (0.0..1.0).contains(&v);
-        let positive = |v: f64| v > 0.0 && v.is_finite();
-        let from_0 = |v: f64| v >= 0.0 && v.is_finite();
-        real("clearance", self.clearance, from_0, "a number from 0")?;
-        real(
-            "hysteresis",
-            self.hysteresis,
-            share,
-            "a number from 0 to below 1",
-        )?;
-        real("margin", self.margin, positive, "a positive number")?;
-        real("lambda_obs", self.lambda_obs, from_0, "a number from 0")?;
-        real("armijo", self.armijo, share, "a number from 0 to below 1")?;
-        real("spread", self.spread, from_0, "a number from 0")
+        InvalidParams::unless_whole("points", self.points, 1..=1_000_000)?;
+        InvalidParams::unless_whole("memory", self.memory, 0..=1000)?;
+        let from_0 = |key: &str, v: f64| {
+            let fine = v >= 0.0 && v.is_finite();
+            InvalidParams::unless(key, v, fine, "a number from 0")
+        };
+        let share = |key: &str, v: f64| {
+            let fine = (0.0..1.0).contains(&v);
+            InvalidParams::unless(key, v, fine, "a number from 0 to below 1")
+        };
+        from_0("clearance", self.clearance)?;
+        share("hysteresis", self.hysteresis)?;
+        let positive = self.margin > 0.0 && self.margin.is_finite();
+        InvalidParams::unless("margin", self.margin, positive, "a positive number")?;
+        from_0("lambda_obs", self.lambda_obs)?;
+        share("armijo", self.armijo)?;
+        from_0("spread", self.spread)
     }
-}
-
-fn whole(key: &str, value: u64, range: RangeInclusive<u64>) -> Result<(), InvalidParams> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    let expected = format!("a whole number from {} to {}", range.start(), range.end());
-    Err(InvalidParams::bad(key, &value.to_string(), expected))
-}
-
-fn real(
-    key: &str,
-    value: f64,
-    fits: impl Fn(f64) -> bool,
-    expected: &str,
-) -> Result<(), InvalidParams> {
-    if fits(value) {
-        return Ok(());
-    }
-    Err(InvalidParams::bad(key, &value.to_string(), expected))
-}
-
-/// An enum by the words for its values.
-macro_rules! words {
-    ($kind:ident { $($word:literal = $value:ident),* }) => {
-        impl FromStr for $kind {
-            type Err = String;
-
-            fn from_str(text: &str) -> Result<Self, String> {
-                match text {
-                    $($word => Ok(Self::$value),)*
-                    _ => Err([$($word),*].join(", ")),
-                }
-            }
-        }
-
-        impl fmt::Display for $kind {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(match self {
-                    $(Self::$value => $word),*
-                })
-            }
-        }
-    };
 }
 
 words!(Rules { "exact" = Exact, "paper" = Paper, "published-code" = PublishedCode });

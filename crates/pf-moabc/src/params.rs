@@ -152,8 +152,8 @@ params!(PrioritisedParams {
 
 impl PrioritisedParams {
     pub(crate) fn check(&self) -> Result<(), InvalidParams> {
-        whole("cells", self.cells, 2..=1000)?;
-        whole("attempts", self.attempts, 1..=100_000)
+        InvalidParams::unless_whole("cells", self.cells, 2..=1000)?;
+        InvalidParams::unless_whole("attempts", self.attempts, 1..=100_000)
     }
 }
 
@@ -235,8 +235,8 @@ impl Nsga2Params {
 
 impl MoeadParams {
     pub(crate) fn check(&self) -> Result<(), InvalidParams> {
-        whole("neighbours", self.neighbours, 3..=100_000)?;
-        whole("replaced", self.replaced, 1..=100_000)?;
+        InvalidParams::unless_whole("neighbours", self.neighbours, 3..=100_000)?;
+        InvalidParams::unless_whole("replaced", self.replaced, 1..=100_000)?;
         number("scale", self.scale, 0.0..=10.0)?;
         number("local", self.local, 0.0..=1.0)?;
         number("mutation", self.mutation, 0.0..=1.0)?;
@@ -254,9 +254,9 @@ impl RandomSearchParams {
 impl Common {
     /// Refuses what makes no sense.
     fn check(&self) -> Result<(), InvalidParams> {
-        whole("population", self.population, 4..=100_000)?;
-        whole("archive", self.archive, 1..=100_000)?;
-        whole("threads", self.threads, 1..=256)?;
+        InvalidParams::unless_whole("population", self.population, 4..=100_000)?;
+        InvalidParams::unless_whole("archive", self.archive, 1..=100_000)?;
+        InvalidParams::unless_whole("threads", self.threads, 1..=256)?;
         number("step", self.step, 0.0..=f64::MAX)?;
         number("fan", self.fan, 0.0..=std::f64::consts::PI)?;
         number("noise", self.noise, 0.0..=std::f64::consts::PI)
@@ -271,13 +271,5 @@ fn number(key: &str, value: f64, range: RangeInclusive<f64>) -> Result<(), Inval
         f64::MAX => format!("a number from {}", range.start()),
         end => format!("a number from {} to {end}", range.start()),
     };
-    Err(InvalidParams::bad(key, &value.to_string(), expected))
-}
-
-fn whole(key: &str, value: usize, range: RangeInclusive<usize>) -> Result<(), InvalidParams> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    let expected = format!("a whole number from {} to {}", range.start(), range.end());
     Err(InvalidParams::bad(key, &value.to_string(), expected))
 }

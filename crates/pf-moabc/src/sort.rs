@@ -1,5 +1,6 @@
 //! Which is better: constrained domination, ranks and crowding.
 
+use pf_core::Cost;
 use pf_geom::{Mark, Objectives};
 
 /// Sorts marks by constrained domination (Deb 2000: what is feasible beats what is not; of two that
@@ -130,6 +131,16 @@ impl Sorter {
     }
 }
 
+/// Constrained domination of one by another.
+pub(crate) fn beats(a: &Mark, b: &Mark) -> bool {
+    match (a.excess > 0.0, b.excess > 0.0) {
+        (false, false) => a.objectives.beats(&b.objectives),
+        (false, true) => true,
+        (true, false) => false,
+        (true, true) => a.excess < b.excess,
+    }
+}
+
 fn lexicographic(a: &Objectives, b: &Objectives) -> std::cmp::Ordering {
     let by = |k: usize| a[k].total_cmp(&b[k]);
     by(0).then_with(|| by(1)).then_with(|| by(2))
@@ -147,17 +158,8 @@ fn same(a: &Mark, b: &Mark) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pf_core::{Cost, PlanRng};
+    use pf_core::PlanRng;
     use rand::{RngExt, SeedableRng};
-
-    fn beats(a: &Mark, b: &Mark) -> bool {
-        match (a.excess > 0.0, b.excess > 0.0) {
-            (false, false) => a.objectives.beats(&b.objectives),
-            (false, true) => true,
-            (true, false) => false,
-            (true, true) => a.excess < b.excess,
-        }
-    }
 
     /// By definition: the fronts are peeled off one after the other.
     fn peeled(marks: &[Mark]) -> Vec<u32> {

@@ -15,6 +15,8 @@ pub(crate) const PREFIX: &str = "external:";
 struct Outside {
     /// The whole name, prefix and command.
     key: &'static str,
+    /// `grid` or `world`.
+    problem: &'static str,
     of: Introduction,
 }
 
@@ -29,14 +31,14 @@ pub(crate) fn find(command: &str) -> Result<&'static dyn AnyEntry, Fault> {
         return Ok(*one);
     }
     let of = Introduction::of(command)?;
-    if ![GridProblem::KIND, WorldProblem::KIND].contains(&of.problem.as_str()) {
-        return Err(Fault::Garbage {
-            line: format!("\"problem\": \"{}\"", of.problem),
-            expected: "\"grid\" or \"world\"".to_owned(),
-        });
-    }
+    let known_problems = [GridProblem::KIND, WorldProblem::KIND];
+    let problem = known_problems.into_iter().find(|kind| *kind == of.problem);
+    let problem = problem.ok_or_else(|| Fault::Garbage {
+        line: format!("\"problem\": \"{}\"", of.problem),
+        expected: "\"grid\" or \"world\"".to_owned(),
+    })?;
     let key = key.leak();
-    let one: &'static Outside = Box::leak(Box::new(Outside { key, of }));
+    let one: &'static Outside = Box::leak(Box::new(Outside { key, problem, of }));
     known.push(one);
     Ok(one)
 }
@@ -49,11 +51,7 @@ impl AnyEntry for Outside {
         self.of.name.clone()
     }
     fn problem(&self) -> &'static str {
-        if self.of.problem == GridProblem::KIND {
-            GridProblem::KIND
-        } else {
-            WorldProblem::KIND
-        }
+        self.problem
     }
     fn claims(&self) -> Claims {
         self.of.claims
@@ -74,7 +72,7 @@ impl AnyEntry for Outside {
             let expected = format!("a program that answers: it {fault}");
             InvalidParams::bad("external", command, expected)
         };
-        Ok(if self.problem() == GridProblem::KIND {
+        Ok(if self.problem == GridProblem::KIND {
             let planner = External::<GridProblem>::start(command, &params).map_err(bad)?;
             Box::new(On::new(Box::new(FromScratch(planner))))
         } else {

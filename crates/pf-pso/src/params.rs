@@ -1,7 +1,6 @@
 //! What can be set.
 
-use pf_core::{InvalidParams, params};
-use std::{fmt, ops::RangeInclusive, str::FromStr};
+use pf_core::{InvalidParams, params, words};
 
 /// What a path should not enter.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -100,8 +99,8 @@ impl PsoParams {
 
     /// Refuses what makes no sense.
     pub(crate) fn check(&self) -> Result<(), InvalidParams> {
-        whole("particles", self.particles as u64, 1..=1_000_000)?;
-        whole("waypoints", self.waypoints as u64, 0..=1_000_000)?;
+        InvalidParams::unless_whole("particles", self.particles, 1..=1_000_000)?;
+        InvalidParams::unless_whole("waypoints", self.waypoints, 0..=1_000_000)?;
         let numbers = (self.particles as u64).saturating_mul(self.waypoints as u64);
         if numbers > 100_000_000 {
             let expected = format!(
@@ -119,48 +118,11 @@ impl PsoParams {
             ("clearance", self.clearance),
             ("weight", self.weight),
         ] {
-            if !(value >= 0.0 && value.is_finite()) {
-                return Err(InvalidParams::bad(
-                    key,
-                    &value.to_string(),
-                    "a number from 0",
-                ));
-            }
+            let fine = value >= 0.0 && value.is_finite();
+            InvalidParams::unless(key, value, fine, "a number from 0")?;
         }
         Ok(())
     }
-}
-
-fn whole(key: &str, value: u64, range: RangeInclusive<u64>) -> Result<(), InvalidParams> {
-    if range.contains(&value) {
-        return Ok(());
-    }
-    let expected = format!("a whole number from {} to {}", range.start(), range.end());
-    Err(InvalidParams::bad(key, &value.to_string(), expected))
-}
-
-/// An enum by the words for its values.
-macro_rules! words {
-    ($kind:ident { $($word:literal = $value:ident),* }) => {
-        impl FromStr for $kind {
-            type Err = String;
-
-            fn from_str(text: &str) -> Result<Self, String> {
-                match text {
-                    $($word => Ok(Self::$value),)*
-                    _ => Err([$($word),*].join(", ")),
-                }
-            }
-        }
-
-        impl fmt::Display for $kind {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(match self {
-                    $(Self::$value => $word),*
-                })
-            }
-        }
-    };
 }
 
 words!(Zones { "shapes" = Shapes, "circles" = Circles });

@@ -1,9 +1,9 @@
 //! What may be set, and what is refused.
 
 use crate::bed::{Law, Rules};
-use pf_core::{InvalidParams, Key, Params, params};
+use pf_core::{InvalidParams, Key, Params, params, words};
 use pf_grid::SwarmRules;
-use std::{fmt, fmt::Display, str::FromStr};
+use std::str::FromStr;
 
 /// What an [`Rfd`](crate::Rfd) does.
 ///
@@ -107,27 +107,9 @@ pub enum Toll {
     Path,
 }
 
-macro_rules! words {
-    ($kind:ident, $expected:literal, $($word:literal => $variant:ident),*) => {
-        impl FromStr for $kind {
-            type Err = &'static str;
-            fn from_str(text: &str) -> Result<Self, Self::Err> {
-                match text {
-                    $($word => Ok(Self::$variant),)*
-                    _ => Err($expected),
-                }
-            }
-        }
-        impl fmt::Display for $kind {
-            fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-                f.write_str(match self { $(Self::$variant => $word),* })
-            }
-        }
-    };
-}
-words!(Slope, "gradient or percent", "gradient" => Gradient, "percent" => Percent);
-words!(Pull, "power or exponential", "power" => Power, "exponential" => Exponential);
-words!(Toll, "swarm or path", "swarm" => Swarm, "path" => Path);
+words!(Slope { "gradient" = Gradient, "percent" = Percent });
+words!(Pull { "power" = Power, "exponential" = Exponential });
+words!(Toll { "swarm" = Swarm, "path" = Path });
 
 /// What an [`RfdStar`](crate::RfdStar) does. The default is [`paper`](Self::paper).
 #[derive(Clone, Debug, PartialEq)]
@@ -333,25 +315,15 @@ fn share(x: f64) -> bool {
     (0.0..=1.0).contains(&x)
 }
 
-/// Refuses the parameter unless it is `fine`.
-fn within(key: &str, value: impl Display, fine: bool, expected: &str) -> Result<(), InvalidParams> {
-    if fine {
-        return Ok(());
-    }
-    Err(InvalidParams::bad(key, &value.to_string(), expected))
-}
-
 fn check_swarm(drops: usize, iterations: u64, threads: usize) -> Result<(), InvalidParams> {
-    let few = (1..=65_536).contains(&drops);
-    within("drops", drops, few, "a whole number from 1 to 65536")?;
-    within(
+    InvalidParams::unless_whole("drops", drops, 1..=65_536)?;
+    InvalidParams::unless(
         "iterations",
         iterations,
         iterations > 0,
         "a whole number from 1",
     )?;
-    let few = (1..=256).contains(&threads);
-    within("threads", threads, few, "a whole number from 1 to 256")
+    InvalidParams::unless_whole("threads", threads, 1..=256)
 }
 
 impl RfdParams {
@@ -368,24 +340,24 @@ impl RfdParams {
             ..
         } = *self;
         check_swarm(self.drops, self.iterations, self.threads)?;
-        within("altitude", altitude, positive(altitude), POSITIVE)?;
-        within("delta", delta, not_negative(delta), NOT_NEGATIVE)?;
-        within("omega", omega, not_negative(omega), NOT_NEGATIVE)?;
-        within("erosion", erosion, not_negative(erosion), NOT_NEGATIVE)?;
-        within(
+        InvalidParams::unless("altitude", altitude, positive(altitude), POSITIVE)?;
+        InvalidParams::unless("delta", delta, not_negative(delta), NOT_NEGATIVE)?;
+        InvalidParams::unless("omega", omega, not_negative(omega), NOT_NEGATIVE)?;
+        InvalidParams::unless("erosion", erosion, not_negative(erosion), NOT_NEGATIVE)?;
+        InvalidParams::unless(
             "flat_erosion",
             flat_erosion,
             not_negative(flat_erosion),
             NOT_NEGATIVE,
         )?;
-        within(
+        InvalidParams::unless(
             "uphill_erosion",
             uphill_erosion,
             not_negative(uphill_erosion),
             NOT_NEGATIVE,
         )?;
-        within("deposit", deposit, share(deposit), SHARE)?;
-        within("climb", climb, share(climb), SHARE)
+        InvalidParams::unless("deposit", deposit, share(deposit), SHARE)?;
+        InvalidParams::unless("climb", climb, share(climb), SHARE)
     }
 
     pub(crate) fn bed(&self) -> Rules {
@@ -428,18 +400,18 @@ impl RfdStarParams {
             ..
         } = *self;
         check_swarm(self.drops, self.iterations, self.threads)?;
-        within("altitude", altitude, positive(altitude), POSITIVE)?;
+        InvalidParams::unless("altitude", altitude, positive(altitude), POSITIVE)?;
         let fine = p_base > 0.0 && p_base <= 1e30;
-        within("p_base", p_base, fine, "a number above 0, up to 1e30")?;
-        within(
+        InvalidParams::unless("p_base", p_base, fine, "a number above 0, up to 1e30")?;
+        InvalidParams::unless(
             "alpha",
             alpha,
             (0.0..=64.0).contains(&alpha),
             "a number from 0 to 64",
         )?;
-        within("erosion", erosion, not_negative(erosion), NOT_NEGATIVE)?;
-        within("deposit", deposit, share(deposit), SHARE)?;
-        within("climb", climb, share(climb), SHARE)
+        InvalidParams::unless("erosion", erosion, not_negative(erosion), NOT_NEGATIVE)?;
+        InvalidParams::unless("deposit", deposit, share(deposit), SHARE)?;
+        InvalidParams::unless("climb", climb, share(climb), SHARE)
     }
 
     pub(crate) fn bed(&self) -> Rules {

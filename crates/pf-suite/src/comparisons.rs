@@ -21,26 +21,14 @@ const EXACT: usize = 25;
 /// ```
 #[must_use]
 pub fn wilcoxon(differences: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = differences
-        .iter()
-        .copied()
-        .filter(|d| d.abs() > 0.0)
-        .collect();
-    sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    if sorted.is_empty() {
+    let SignedRanks {
+        ranks,
+        positive,
+        ties,
+    } = SignedRanks::of(differences);
+    if ranks.is_empty() {
         return 1.0;
     }
-    // Twice the ranks are whole numbers, ties or not.
-    let (mut ranks, mut ties, mut before) = (Vec::with_capacity(sorted.len()), 0.0, 0);
-    for equal in sorted.chunk_by(|a, b| a.abs().total_cmp(&b.abs()).is_eq()) {
-        let rank = 2 * before + equal.len() + 1;
-        ranks.extend(equal.iter().map(|_| rank));
-        before += equal.len();
-        let count = float(equal.len());
-        ties += count * count * count - count;
-    }
-    let positive = sorted.iter().zip(&ranks).filter(|(d, _)| **d > 0.0);
-    let positive: usize = positive.map(|(_, rank)| rank).sum();
     if ranks.len() <= EXACT {
         return exact(&ranks, positive);
     }
@@ -51,21 +39,47 @@ pub fn wilcoxon(differences: &[f64]) -> f64 {
     libm::erfc(off / variance.sqrt() / std::f64::consts::SQRT_2).min(1.0)
 }
 
-/// To which side the test leans: positive if the positive differences have the greater ranks together.
-pub(crate) fn leaning(differences: &[f64]) -> f64 {
-    let mut sorted: Vec<f64> = differences
-        .iter()
-        .copied()
-        .filter(|d| d.abs() > 0.0)
-        .collect();
-    sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
-    let (mut sum, mut before) = (0.0, 0);
-    for equal in sorted.chunk_by(|a, b| a.abs().total_cmp(&b.abs()).is_eq()) {
-        let rank = float(2 * before + equal.len() + 1);
-        sum += equal.iter().map(|d| rank * d.signum()).sum::<f64>();
-        before += equal.len();
+/// To which side the test leans: greater if the positive differences have the greater ranks together.
+pub(crate) fn leaning(differences: &[f64]) -> std::cmp::Ordering {
+    let SignedRanks {
+        ranks, positive, ..
+    } = SignedRanks::of(differences);
+    (2 * positive).cmp(&ranks.iter().sum())
+}
+
+/// What the test is made of: the ranks of differences by their size, where there is one. Twice the
+/// ranks are whole numbers, ties or not.
+struct SignedRanks {
+    /// Doubled.
+    ranks: Vec<usize>,
+    /// Their sum over the positive differences.
+    positive: usize,
+    /// The sum of t^3 - t over ties of t.
+    ties: f64,
+}
+
+impl SignedRanks {
+    fn of(differences: &[f64]) -> Self {
+        let mut sorted: Vec<f64> = differences
+            .iter()
+            .copied()
+            .filter(|d| d.abs() > 0.0)
+            .collect();
+        sorted.sort_by(|a, b| a.abs().total_cmp(&b.abs()));
+        let (mut ranks, mut positive, mut ties) = (Vec::with_capacity(sorted.len()), 0, 0.0);
+        for equal in sorted.chunk_by(|a, b| a.abs().total_cmp(&b.abs()).is_eq()) {
+            let rank = 2 * ranks.len() + equal.len() + 1;
+            ranks.extend(equal.iter().map(|_| rank));
+            positive += rank * equal.iter().filter(|d| **d > 0.0).count();
+            let count = float(equal.len());
+            ties += count * count * count - count;
+        }
+        Self {
+            ranks,
+            positive,
+            ties,
+        }
     }
-    sum
 }
 
 /// The share of all choices of signs that are as extreme as this sum of doubled ranks.
@@ -281,8 +295,8 @@ mod tests {
         let differences: Vec<f64> = (1..=27)
             .map(|d| f64::from(if d <= 14 { -d } else { d }))
             .collect();
-        assert!(wilcoxon(&differences) < 0.05 && leaning(&differences) > 0.0);
-        assert!(leaning(&[1.0, -1.0]).abs() < 1e-15 && leaning(&[]).abs() < 1e-15);
+        assert!(wilcoxon(&differences) < 0.05 && leaning(&differences).is_gt());
+        assert!(leaning(&[1.0, -1.0]).is_eq() && leaning(&[]).is_eq());
     }
 
     #[test]

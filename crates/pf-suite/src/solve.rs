@@ -156,24 +156,24 @@ fn on_scene(
     let Some(entry) = contender.entry() else {
         return Outcome::none("declined", "there is no planner of that name");
     };
-    let plan = |recorder| -> Result<(Answer, bool, Claims), String> {
-        let mut runner = entry.runner(settings).map_err(|error| error.to_string())?;
+    // Settings were checked with the suite: who cannot be made now has failed, as a program does that
+    // does not start. Who declines says so when it is asked.
+    let plan = |recorder| -> Result<(Answer, bool, Claims), (&'static str, String)> {
+        let runner = entry.runner(settings);
+        let mut runner = runner.map_err(|error| ("failed", error.to_string()))?;
         let order = Order {
             seed,
             budget: budget.clone(),
             recorder,
         };
         let answer = runner.plan(scene, order);
-        let answer = answer.map_err(|refusal: Refusal| refusal.to_string())?;
+        let declined = |refusal: Refusal| ("declined", refusal.to_string());
+        let answer = answer.map_err(declined)?;
         Ok((answer, runner.raster().is_some(), runner.claims()))
     };
     let (answer, rasterised, claims) = match plan(None) {
         Ok(answered) => answered,
-        // A program that does not start has failed, and did not say that the problem is not for it.
-        Err(why) if contender.planner.starts_with("external:") => {
-            return Outcome::none("failed", why);
-        }
-        Err(why) => return Outcome::none("declined", why),
+        Err((word, why)) => return Outcome::none(word, why),
     };
     let mut answer = answer;
     let mut others = Vec::new();

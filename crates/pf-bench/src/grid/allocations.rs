@@ -7,17 +7,15 @@
 
 use super::{Args, contender::RULES};
 use crate::{
-    Counter,
+    Counter, beside,
     cases::Case,
     protocol::{Row, json},
 };
 use anyhow::Result;
 use pf_grid::GridProblem;
 use serde::{Deserialize, Serialize};
-use std::{env, path::Path, process::Command, sync::Arc};
+use std::sync::Arc;
 
-/// The program's name, beside ours.
-const PROGRAM: &str = "pf-bench-allocations";
 /// How many queries are asked at most.
 const QUERIES: usize = 20;
 
@@ -45,18 +43,9 @@ impl Counted {
 
 /// Lets the other program count; without it nothing is known.
 pub(super) fn ask() -> Counted {
-    let count = || {
-        let beside = env::current_exe().ok()?.with_file_name(Path::new(PROGRAM));
-        let program = beside.with_extension(env::consts::EXE_EXTENSION);
-        let output = Command::new(program)
-            .args(env::args_os().skip(1))
-            .output()
-            .ok()?;
-        let text = String::from_utf8(output.stdout).ok()?;
-        let counts = text.lines().map(|line| serde_json::from_str(line).ok());
-        output.status.success().then(|| counts.flatten().collect())
-    };
-    Counted(count().unwrap_or_default())
+    let text = beside::said().unwrap_or_default();
+    let counts = text.lines().map(|line| serde_json::from_str(line).ok());
+    Counted(counts.flatten().collect())
 }
 
 /// What the other program does: a line per map and contender.

@@ -2,20 +2,13 @@
 //! archive, sorted anew after each of them, leads the onlookers.
 
 use super::{Bees, visit};
-use crate::hive::{Hive, Rows};
-use pf_core::{Context, Cost};
-use pf_geom::{Mark, TeamProblem};
+use crate::{
+    hive::{Hive, Rows},
+    sort::beats,
+};
+use pf_core::Context;
+use pf_geom::TeamProblem;
 use rand::RngExt;
-
-/// Whether a bee's find is better than its source.
-fn beats(a: &Mark, b: &Mark) -> bool {
-    match (a.excess > 0.0, b.excess > 0.0) {
-        (false, false) => a.objectives.beats(&b.objectives),
-        (false, true) => true,
-        (true, false) => false,
-        (true, true) => a.excess < b.excess,
-    }
-}
 
 impl Bees {
     /// One cycle: an employed bee to each source, as many onlookers to members of the archive.

@@ -70,7 +70,7 @@ impl Gallery {
                 json!({"at": at, "map": drawn(problem, mark.plan, &page), "said": mark.words})
             })
             .collect();
-        let data = json!({"plans": plans, "first": start}).to_string();
+        let data = json!({"plans": plans, "first": start});
         let (view, [w, h]) = html::view(&page);
         let mut names = "<ul class=\"legend\">".to_owned();
         for (k, found) in fronts.iter().enumerate() {
@@ -92,7 +92,7 @@ impl Gallery {
             drawn(problem, marks[start].plan, &page),
             svg::escaped(&marks[start].words),
             charts.concat(),
-            data.replace('<', "\\u003c")
+            html::in_script(&data)
         )
     }
 }

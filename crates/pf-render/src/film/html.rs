@@ -131,6 +131,11 @@ impl Parts {
     }
 }
 
+/// Data as it may stand in a script's element: nothing in it ends that.
+pub(super) fn in_script(data: &Value) -> String {
+    data.to_string().replace('<', "\\u003c")
+}
+
 fn figure(film: &Film, page: &Page, data: &Value) -> String {
     let (view, [w, h]) = view(page);
     let count = film.frames();
@@ -139,8 +144,7 @@ fn figure(film: &Film, page: &Page, data: &Value) -> String {
     let ground = data["grounds"]
         .as_array()
         .and_then(|all| all.last()?.as_str());
-    // JSON may hold what ends a script.
-    let json = data.to_string().replace('<', "\\u003c");
+    let json = in_script(data);
     // A picture has nothing to play.
     let hidden = if count < 2 { " hidden" } else { "" };
     format!(

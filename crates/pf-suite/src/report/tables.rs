@@ -9,6 +9,7 @@ use crate::{
     record::Line,
     statistics::{Spread, median_interval, wilson},
 };
+use std::cmp::Ordering;
 
 /// Medians and intervals of some numbers.
 pub(crate) fn median(values: &[f64], show: impl Fn(f64) -> String) -> String {
@@ -181,22 +182,22 @@ struct Pair {
     equal: usize,
     worse: usize,
     p: f64,
-    /// Below 0 where the test finds the first the cheaper one.
-    leans: f64,
+    /// Less where the test finds the first the cheaper one.
+    leans: Ordering,
 }
 
 impl Pair {
     fn of(names: Vec<String>, scores: &[(f64, f64)]) -> Self {
-        let count = |wanted: std::cmp::Ordering| {
+        let count = |wanted: Ordering| {
             let same = |(a, b): &&(f64, f64)| a.total_cmp(b) == wanted;
             scores.iter().filter(same).count()
         };
         let differences: Vec<f64> = scores.iter().map(|(a, b)| a - b).collect();
         Self {
             names,
-            better: count(std::cmp::Ordering::Less),
-            equal: count(std::cmp::Ordering::Equal),
-            worse: count(std::cmp::Ordering::Greater),
+            better: count(Ordering::Less),
+            equal: count(Ordering::Equal),
+            worse: count(Ordering::Greater),
             p: wilcoxon(&differences),
             leans: leaning(&differences),
         }
@@ -207,7 +208,7 @@ fn rows_of(pairs: Vec<Pair>) -> Vec<Vec<String>> {
     let corrected = holm(&pairs.iter().map(|pair| pair.p).collect::<Vec<_>>());
     let row = |(pair, corrected): (Pair, f64)| {
         let counts = [pair.better, pair.equal, pair.worse].map(|n| n.to_string());
-        let verdict = match (corrected < 0.05, pair.leans < 0.0) {
+        let verdict = match (corrected < 0.05, pair.leans.is_lt()) {
             (false, _) => "",
             (true, true) => "better",
             (true, false) => "worse",
