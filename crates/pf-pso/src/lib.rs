@@ -10,7 +10,7 @@ pub use params::{Penalty, PsoParams, Zones};
 use cost::Danger;
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
-    Stamp, Unsupported,
+    Solved, Stamp, Unsupported,
 };
 use pf_geom::{Point, Segment, WorldProblem};
 use swarm::{Swarm, Task};
@@ -104,8 +104,9 @@ impl Pso {
             self.swarm.stir(&task, cx);
         }
         // The last leader that the judge lets pass: one after it may be in less danger, and still
-        // collide.
+        // collide. It may also be longer than one before, which was in danger of the clearance.
         let mut passed: Option<Vec<Point>> = None;
+        let mut shortest = f64::INFINITY;
         let mut ended = Ended {
             fitness: -self.swarm.leader_cost(),
             last_improved: 0,
@@ -115,7 +116,15 @@ impl Pso {
         for iteration in 0..=iterations {
             if improved {
                 let path = task.path(self.swarm.leader());
-                if problem.judge(&path).is_ok() {
+                if let Ok(cost) = problem.judge(&path) {
+                    if cost < shortest {
+                        shortest = cost;
+                        let solution = &path;
+                        cx.improved(|| Solved {
+                            solution: solution.clone(),
+                            cost,
+                        });
+                    }
                     passed = Some(path);
                 }
                 ended = Ended {

@@ -48,8 +48,13 @@ pub struct PsoParams {
 }
 
 impl Default for PsoParams {
+    /// Particles trust themselves more than the leader, so that they do not all gather on the side of an
+    /// obstacle where it happens to be. Both weights were tuned on quadrant scenes 0 to 599 and on 60
+    /// random worlds each with 5, 10 and 20 shapes; scenes from 100,000 on were held out.
     fn default() -> Self {
         Self {
+            c1: 2.5,
+            c2: 0.5,
             zones: Zones::Shapes,
             penalty: Penalty::Length,
             ..Self::paper()

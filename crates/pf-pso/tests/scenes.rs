@@ -1,8 +1,8 @@
 //! Scenes with one obstacle, odd questions, and swarms that are kept.
 
 use pf_conformance::world::quadrant_scene;
-use pf_core::{Context, Outcome, Planner, Problem, Replanner};
-use pf_geom::{Point, Vector, WorldChange, WorldProblem};
+use pf_core::{Context, Event, Outcome, Planner, Problem, Replanner};
+use pf_geom::{Answer, Point, TangentGraph, Vector, WorldChange, WorldProblem};
 use pf_pso::{Pso, PsoParams};
 
 #[test]
@@ -19,6 +19,46 @@ fn twenty_particles_find_a_way_nearly_always() {
             assert!(solved >= 98, "{solved} of 100");
         }
     }
+}
+
+/// The worst ways are those past the wrong side of the obstacle.
+#[test]
+fn few_swarms_gather_on_the_longer_side() {
+    let mut planner = Pso::default();
+    let mut far = 0;
+    for seed in 0..200 {
+        let problem = quadrant_scene(200_000 + seed, seed % 2 == 0, seed / 10);
+        let grown = WorldProblem::new(
+            problem.shared_world(),
+            problem.radius() + PsoParams::default().clearance,
+            problem.start(),
+            problem.goal(),
+        );
+        let report = planner.plan(&problem, &mut Context::seeded(seed)).unwrap();
+        let exact = TangentGraph::default().shortest(&grown.unwrap(), &mut Context::seeded(0));
+        if let (Some(best), Answer::Route(route)) = (report.outcome.solved(), exact) {
+            far += u32::from(best.cost > 1.1 * route.length());
+        }
+    }
+    assert!(far <= 10, "{far} of 200 are over 1.1 times the shortest");
+}
+
+#[test]
+fn announced_ways_get_shorter() {
+    let problem = quadrant_scene(1, true, 0);
+    let mut lengths = Vec::new();
+    let mut listen = |event: &Event<'_, WorldProblem>| {
+        if let Event::Improved(best) = event {
+            assert_eq!(problem.judge(&best.solution), Ok(best.cost));
+            lengths.push(best.cost);
+        }
+    };
+    let mut cx = Context::seeded(1).traced(&mut listen);
+    let report = Pso::default().plan(&problem, &mut cx).unwrap();
+    let handed_out = lengths.pop();
+    assert_eq!(handed_out, report.outcome.solved().map(|best| best.cost));
+    assert!(lengths.len() > 10, "only {} improvements", lengths.len());
+    assert!(lengths.is_sorted_by(|a, b| a > b));
 }
 
 #[test]
