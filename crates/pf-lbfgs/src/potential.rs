@@ -3,7 +3,7 @@
 mod lanes;
 
 use crate::quadratic;
-use lanes::{Four, Lanes};
+use lanes::{Packed, Samples};
 use pf_core::PlanRng;
 use pf_geom::Rectangle;
 use wide::f64x4;
@@ -12,6 +12,8 @@ use wide::f64x4;
 const HEIGHT: f64 = 8.0;
 /// The published code sees rectangles within this of a segment's middle.
 const SIGHT: f64 = 5.0;
+/// So many segments are held beside a bump at once.
+const GROUP: usize = 3;
 /// How many samples a segment has, both ends included.
 const SAMPLES: u32 = 4;
 
@@ -109,12 +111,29 @@ impl Bump {
     }
 
     /// Whether all between these corners is outside.
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "all at once: which of them holds is hard to guess"
+    )]
     fn is_outside(&self, min: [f64; 2], max: [f64; 2]) -> bool {
-        max[0] <= self.min[0]
-            || min[0] >= self.max[0]
-            || max[1] <= self.min[1]
-            || min[1] >= self.max[1]
+        (max[0] <= self.min[0])
+            | (min[0] >= self.max[0])
+            | (max[1] <= self.min[1])
+            | (min[1] >= self.max[1])
     }
+}
+
+/// The corners of what holds some points.
+fn corners(points: &[f64]) -> ([f64; 2], [f64; 2]) {
+    let (mut min, mut max) = ([points[0], points[1]], [points[0], points[1]]);
+    for point in points.chunks_exact(2) {
+        for k in [0, 1] {
+            // Not f64::min, which minds NaN: three instructions more.
+            min[k] = if point[k] < min[k] { point[k] } else { min[k] };
+            max[k] = if point[k] > max[k] { point[k] } else { max[k] };
+        }
+    }
+    (min, max)
 }
 
 struct Height {
@@ -159,30 +178,23 @@ impl Potential {
         loss
     }
 
-    /// The same, four segments at a time.
+    /// The same, four samples at a time.
     pub(crate) fn loss_in_lanes(&self, path: &[f64], lambda: f64, gradient: &mut [f64]) -> f64 {
-        let mut loss = quadratic::loss_in_lanes(path, gradient);
+        let loss = quadratic::loss_in_lanes(path, gradient);
+        let mut inside = Packed::new(lambda, gradient);
         let segments = path.len() / 2 - 1;
-        for first in (0..segments).step_by(4) {
-            let four = Four::of(&path[2 * first..]);
-            let mut sum = None;
+        for first in (0..segments).step_by(GROUP) {
+            let some = 2 * first..2 * segments.min(first + GROUP);
+            let (min, max) = corners(&path[some.start..some.end + 2]);
             for bump in &self.bumps {
-                if !bump.is_outside(four.min, four.max) {
-                    bump.add_four(&four, sum.get_or_insert_with(Lanes::default));
+                if !bump.is_outside(min, max) {
+                    for segment in some.clone().step_by(2) {
+                        inside.take(&Samples::of(path, segment), bump);
+                    }
                 }
             }
-            let Some(sum) = sum else { continue };
-            loss += lambda * sum.value.reduce_add();
-            // A segment's end is where the next one begins.
-            let [ax, ay, bx, by] = sum.gradient.map(f64x4::to_array);
-            for (k, g) in (2 * first..path.len() - 2).step_by(2).take(4).enumerate() {
-                gradient[g] += lambda * ax[k];
-                gradient[g + 1] += lambda * ay[k];
-                gradient[g + 2] += lambda * bx[k];
-                gradient[g + 3] += lambda * by[k];
-            }
         }
-        loss
+        loss + inside.close()
     }
 
     /// The loss as the published code takes it: with 8 samples where the square of the distance from
