@@ -78,6 +78,19 @@ pub(crate) fn length(path: &[f64]) -> f64 {
     (0..path.len() - 2).step_by(2).map(piece).sum()
 }
 
+/// The corners of what holds all points of a flat path.
+pub(crate) fn corners(points: &[f64]) -> ([f64; 2], [f64; 2]) {
+    let (mut min, mut max) = ([points[0], points[1]], [points[0], points[1]]);
+    for point in points.chunks_exact(2) {
+        for k in [0, 1] {
+            // Not f64::min, which minds NaN: three instructions more.
+            min[k] = if point[k] < min[k] { point[k] } else { min[k] };
+            max[k] = if point[k] > max[k] { point[k] } else { max[k] };
+        }
+    }
+    (min, max)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

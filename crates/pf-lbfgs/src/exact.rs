@@ -20,7 +20,7 @@ const RAISES: u32 = 4;
 /// weight does not reach all of it.
 const SPARE: f64 = 2e-3;
 /// A step of Newton's method that promises less than this share of the loss is not taken.
-const WORTH: f64 = 1e-9;
+const WORTH: f64 = 1e-6;
 /// How much longer than the exact path its polyline may be for its arcs, as a share.
 const EXCESS: f64 = 1e-6;
 

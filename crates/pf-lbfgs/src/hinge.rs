@@ -2,6 +2,7 @@
 
 use crate::{
     banded::Banded,
+    class::corners,
     newton::Loss,
     quadratic,
     solid::{Solids, Touch},
@@ -23,7 +24,25 @@ pub(crate) struct Hinge {
     listed_at: Vec<f64>,
     listed_for: f64,
     slack: f64,
+    /// What was lacking, or nearly, when the loss was last asked for.
+    lacks: Vec<Lack>,
 }
+
+/// Where how much is missing, or, below 0, to spare.
+#[derive(Clone, Copy, Debug)]
+struct Lack {
+    segment: usize,
+    much: f64,
+    touch: Touch,
+    /// Whether the curvature counts it.
+    counts: bool,
+}
+
+/// How far beyond the distance a step looks ahead, as a share of the slack: what is further lies in other
+/// directions by the time a step is there.
+const AHEAD: f64 = 0.05;
+/// So many segments are first looked at as one.
+const GROUP: usize = 8;
 
 impl Hinge {
     /// Forgets which figures are near: the world or the path is another.
@@ -45,28 +64,44 @@ impl Hinge {
         self.listed_for = self.distance;
         self.pairs.clear();
         let reach = self.distance + self.slack;
-        for segment in 0..path.len() / 2 - 1 {
-            let (a, b) = ends(path, segment);
+        let segments = path.len() / 2 - 1;
+        for first in (0..segments).step_by(GROUP) {
+            let some = first..segments.min(first + GROUP);
+            let (min, max) = corners(&path[2 * first..=2 * some.end + 1]);
             for solid in 0..self.solids.len() {
-                if self.solids.is_near(solid, a, b, reach) {
-                    self.pairs.push((index(segment), index(solid)));
+                if !self.solids.is_near(solid, min, max, reach) {
+                    continue;
+                }
+                for segment in some.clone() {
+                    let (a, b) = ends(path, segment);
+                    if self.solids.is_near(solid, a, b, reach) {
+                        self.pairs.push((index(segment), index(solid)));
+                    }
                 }
             }
         }
     }
 
-    /// Shows every lack: of which segment, how much, and where.
-    fn each_lack(&mut self, path: &[f64], mut lack: impl FnMut(usize, f64, &Touch)) {
+    /// Finds every lack, and what nearly is one.
+    fn look(&mut self, path: &[f64]) {
         self.list(path);
+        self.lacks.clear();
+        let distance = self.distance;
+        let reach = distance + AHEAD * self.slack;
         for &(segment, solid) in &self.pairs {
             let (segment, solid) = (segment as usize, solid as usize);
             let (a, b) = ends(path, segment);
-            if !self.solids.is_near(solid, a, b, self.distance) {
+            if !self.solids.is_near(solid, a, b, reach) {
                 continue;
             }
-            let distance = self.distance;
-            self.solids.each_touch(solid, a, b, distance, |touch| {
-                lack(segment, distance - touch.distance, &touch);
+            self.solids.each_touch(solid, a, b, reach, |touch| {
+                let much = distance - touch.distance;
+                self.lacks.push(Lack {
+                    segment,
+                    much,
+                    touch,
+                    counts: much > 0.0,
+                });
             });
         }
     }
@@ -102,14 +137,21 @@ impl Loss for Hinge {
     fn loss(&mut self, path: &[f64], gradient: &mut [f64]) -> f64 {
         let mut loss = quadratic::loss(path, gradient);
         let weight = self.weight;
-        self.each_lack(path, |segment, lack, touch| {
-            loss += weight * lack * lack;
+        self.look(path);
+        for Lack {
+            segment,
+            much,
+            touch,
+            ..
+        } in self.lacks.iter().filter(|lack| lack.counts)
+        {
+            loss += weight * much * much;
             for (k, share) in [(0, 1.0 - touch.at), (2, touch.at)] {
                 for (axis, out) in touch.out.iter().enumerate() {
-                    gradient[2 * segment + k + axis] -= 2.0 * weight * lack * share * out;
+                    gradient[2 * segment + k + axis] -= 2.0 * weight * much * share * out;
                 }
             }
-        });
+        }
         self.each_excess(path, |k, over| {
             loss += weight * over * over;
             gradient[k] += 2.0 * weight * over;
@@ -122,17 +164,40 @@ impl Loss for Hinge {
         let points = path.len() / 2 - 2;
         quadratic::curvature(matrix, points);
         let weight = 2.0 * self.weight;
-        self.each_lack(path, |segment, _, touch| {
+        for Lack { segment, touch, .. } in self.lacks.iter().filter(|lack| lack.counts) {
             let [x, y] = touch.out;
-            add_outer(
-                matrix,
-                points,
-                segment,
-                touch.at,
-                [x * x, x * y, y * y].map(|v| v * weight),
-            );
-        });
+            let outer = [x * x, x * y, y * y].map(|v| v * weight);
+            add_outer(matrix, points, *segment, touch.at, outer);
+        }
         self.each_excess(path, |k, _| matrix.add(k - 2, k - 2, weight));
+    }
+
+    /// Without this a step runs into figures beside those that it minds, and is cut to nearly nothing.
+    fn look_ahead(&mut self, step: &[f64], downhill: &mut [f64]) -> bool {
+        let mut more = false;
+        for lack in &mut self.lacks {
+            let Touch { at, out, .. } = lack.touch;
+            // The ends of the path take no step.
+            let ends = [(0, 1.0 - at), (1, at)].map(|(end, share)| {
+                let place = (2 * (lack.segment + end)).checked_sub(2);
+                place
+                    .filter(|&place| place < step.len())
+                    .map(|place| (place, share))
+            });
+            if !lack.counts {
+                let away = |(k, share)| share * (out[0] * step[k] + out[1] * step[k + 1]);
+                lack.counts = lack.much > ends.into_iter().flatten().map(away).sum();
+                more |= lack.counts;
+            }
+            if lack.counts && lack.much <= 0.0 {
+                for (k, share) in ends.into_iter().flatten() {
+                    for axis in [0, 1] {
+                        downhill[k + axis] += 2.0 * self.weight * lack.much * share * out[axis];
+                    }
+                }
+            }
+        }
+        more
     }
 }
 

@@ -13,9 +13,15 @@ pub(crate) trait Loss {
     /// included.
     fn loss(&mut self, path: &[f64], gradient: &mut [f64]) -> f64;
 
-    /// The second derivatives by the inner points, in place of what `matrix` held; if `cautious`,
-    /// something positive definite in their place.
+    /// The second derivatives by the inner points, in place of what `matrix` held, for the path whose
+    /// loss was asked for last; if `cautious`, something positive definite in their place.
     fn curvature(&mut self, path: &[f64], cautious: bool, matrix: &mut Banded);
+
+    /// Whether more matters if the inner points take a step. The curvature then counts it, too, and
+    /// so does `downhill`, which begins as minus the gradient by the inner points.
+    fn look_ahead(&mut self, _step: &[f64], _downhill: &mut [f64]) -> bool {
+        false
+    }
 }
 
 /// The paper's loss at one weight.
@@ -60,6 +66,8 @@ fn upward([xx, xy, yy]: [f64; 3]) -> [f64; 3] {
 /// How much of a step is tried next, and at least.
 const SHRINK: f64 = 0.4;
 const SMALLEST: f64 = 1e-7;
+/// How often a step is taken back to count what it would run into.
+const LOOKS: u32 = 2;
 
 /// When to stop.
 #[derive(Clone, Copy, Debug)]
@@ -79,6 +87,7 @@ pub(crate) struct Newton {
     gradient: Vec<f64>,
     after: Vec<f64>,
     step: Vec<f64>,
+    ahead: Vec<f64>,
     matrix: Banded,
 }
 
@@ -156,6 +165,21 @@ impl Newton {
             }
         }
         solved?;
+        for _ in 0..LOOKS {
+            self.ahead.clear();
+            self.ahead
+                .extend(self.gradient[inner.clone()].iter().map(|g| -g));
+            if !loss.look_ahead(&self.step, &mut self.ahead) {
+                break;
+            }
+            loss.curvature(path, false, &mut self.matrix);
+            if self.matrix.solve(&mut self.ahead).is_none()
+                || dot(&self.gradient[inner.clone()], &self.ahead) >= 0.0
+            {
+                break;
+            }
+            std::mem::swap(&mut self.step, &mut self.ahead);
+        }
         let longest = self
             .step
             .chunks_exact(2)

@@ -2,7 +2,7 @@
 
 mod lanes;
 
-use crate::quadratic;
+use crate::{class::corners, quadratic};
 use lanes::{Packed, Samples};
 use pf_core::PlanRng;
 use pf_geom::Rectangle;
@@ -121,19 +121,6 @@ impl Bump {
             | (max[1] <= self.min[1])
             | (min[1] >= self.max[1])
     }
-}
-
-/// The corners of what holds some points.
-fn corners(points: &[f64]) -> ([f64; 2], [f64; 2]) {
-    let (mut min, mut max) = ([points[0], points[1]], [points[0], points[1]]);
-    for point in points.chunks_exact(2) {
-        for k in [0, 1] {
-            // Not f64::min, which minds NaN: three instructions more.
-            min[k] = if point[k] < min[k] { point[k] } else { min[k] };
-            max[k] = if point[k] > max[k] { point[k] } else { max[k] };
-        }
-    }
-    (min, max)
 }
 
 struct Height {
