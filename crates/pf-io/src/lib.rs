@@ -53,4 +53,4 @@ pub use world::{
     Names, Robot, WorldFile, parse_geojson, parse_world, read_geojson, read_world, write_geojson,
     write_world,
 };
-pub use write::whole as write_whole;
+pub use write::{between_writes, make_folder, whole as write_whole};
