@@ -1,4 +1,5 @@
 //! Full disks and folders that cannot be written.
+#![cfg(target_os = "linux")]
 
 use crate::{
     Folder, Run,
@@ -55,7 +56,6 @@ impl Folder {
 }
 
 /// A disk that takes a block of each file and no more: an error amid a write, as on a full disk.
-#[cfg(target_os = "linux")]
 fn with_little_room(folder: &Folder, words: &str) -> Run {
     let limit = "trap '' XFSZ; ulimit -f 1; exec \"$0\" \"$@\"";
     let mut shell = Command::new("sh");
@@ -65,7 +65,6 @@ fn with_little_room(folder: &Folder, words: &str) -> Run {
     Run::from(output.expect("a shell starts"))
 }
 
-#[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_is_an_error_with_the_path_and_what_was_there_stays() {
     for (words, names) in WRITERS {
@@ -92,7 +91,6 @@ fn a_full_disk_is_an_error_with_the_path_and_what_was_there_stays() {
 }
 
 /// Whatever a folder holds, by name.
-#[cfg(target_os = "linux")]
 fn content(folder: &Folder, name: &str) -> Vec<(std::ffi::OsString, Vec<u8>)> {
     let entries = fs::read_dir(folder.path(name)).expect("a folder");
     let mut all: Vec<_> = entries
@@ -103,7 +101,6 @@ fn content(folder: &Folder, name: &str) -> Vec<(std::ffi::OsString, Vec<u8>)> {
     all
 }
 
-#[cfg(target_os = "linux")]
 #[test]
 fn what_was_done_before_the_disk_was_full_is_not_done_again() {
     let folder = whole::folder();
@@ -129,7 +126,6 @@ fn what_was_done_before_the_disk_was_full_is_not_done_again() {
     );
 }
 
-#[cfg(target_os = "linux")]
 #[test]
 fn a_merge_that_finds_no_room_changes_and_leaves_nothing() {
     let folder = whole::folder();
@@ -166,7 +162,6 @@ fn a_folder_that_cannot_be_written_is_named() {
     }
 }
 
-#[cfg(target_os = "linux")]
 #[test]
 fn a_full_disk_under_standard_output_is_an_error() {
     let folder = whole::folder();

@@ -64,7 +64,7 @@ const LONG: &[&str] = &[
     "demo --out @out",
     "paper faustino --runs 20 --report @out",
     "paper redlarski --report @out",
-    "walk maps/worlds/cabc-2.toml --set memory=0 --set steps=1000000000 --svg @out/a.svg",
+    "walk maps/worlds/cabc-2.toml --set memory=0 --set steps=1000000000 --svg @out/a.svg --png @out/a.png",
     "team maps/scenarios/three-robots.toml --evaluations 1000000000 --svg @out/a.svg --png @out/a.png",
 ];
 

@@ -1,4 +1,5 @@
 //! Commands that write, and whether what they wrote is whole.
+#![cfg(unix)]
 
 use crate::{Folder, animations::frames, command};
 use serde_json::Value;
