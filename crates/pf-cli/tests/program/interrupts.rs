@@ -83,11 +83,22 @@ fn interrupted(folder: &Folder, words: &str, moment: u64, twice: bool) -> ExitSt
         thread::sleep(Duration::from_millis(3));
         press_ctrl_c(&child);
     }
+    let mut looks = 0;
+    let status = loop {
+        if let Some(status) = child.try_wait().expect("it can be looked at") {
+            break status;
+        }
+        thread::sleep(Duration::from_millis(5));
+        looks += 1;
+        // Where a shell in the background ignores Ctrl-C, so does the program until it listens.
+        if looks % 1000 == 0 {
+            press_ctrl_c(&child);
+        }
+    };
     let mut said = String::new();
     let mut err = child.stderr.take().expect("its messages");
     err.read_to_string(&mut said).expect("text");
     assert!(!said.contains("panicked"), "{words}: {said}");
-    let status = child.wait().expect("it ends");
     // It may have been faster, or not yet have listened.
     let ended = matches!(status.code(), Some(130 | 0) | None);
     assert!(ended, "{words}, after {moment} ms: {status}, {said}");
