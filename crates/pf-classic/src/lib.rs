@@ -1,4 +1,4 @@
-//! Dijkstra, A*, D* Lite and jump point search on grids: exact, proven and fast.
+#![doc = include_str!("../README.md")]
 
 mod auto;
 mod best_first;

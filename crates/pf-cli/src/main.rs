@@ -89,10 +89,21 @@ enum Verb {
 }
 
 fn main() -> ExitCode {
-    let program = Program::parse();
+    let program = match Program::try_parse() {
+        Ok(program) => program,
+        Err(said) => return tell(&said),
+    };
     match act(program.verb) {
         Ok(status) => status.into(),
         Err(failure) => failure.tell(),
+    }
+}
+
+/// Prints what clap has to say: help, or what is wrong with the arguments.
+fn tell(said: &clap::Error) -> ExitCode {
+    match said.print() {
+        Err(error) if !said.use_stderr() => Failure::from(error).tell(),
+        _ => u8::try_from(said.exit_code()).unwrap_or(2).into(),
     }
 }
 

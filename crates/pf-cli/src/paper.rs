@@ -3,6 +3,7 @@
 use crate::failure::{Failure, Status};
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
+use pf_io::make_folder;
 use pf_papers::{
     PaperError, cabc, faustino, kim,
     page::{Figure, write_report},
@@ -14,7 +15,7 @@ use serde::Serialize;
 use std::{
     io::{Write, stdout},
     num::NonZeroUsize,
-    path::PathBuf,
+    path::{Path, PathBuf},
 };
 
 /// Run the experiment of a paper again, and print its numbers beside ours
@@ -181,6 +182,7 @@ fn act_kim(args: &KimArgs, cancel: &CancelToken) -> Result<(), Stopped> {
         cancel: cancel.clone(),
     };
     let bar = bar();
+    make(args.output.report.as_deref())?;
     let rows = kim::run(&published, &options, &mut |done, all, what| {
         tell(&bar, done, all, what);
     });
@@ -197,6 +199,7 @@ fn act_faustino(args: &FaustinoArgs, cancel: &CancelToken) -> Result<(), Stopped
         cancel: cancel.clone(),
     };
     let bar = bar();
+    make(args.output.report.as_deref())?;
     let rows = faustino::run(&options, &mut |done, all, what| {
         tell(&bar, done, all, what);
     });
@@ -212,6 +215,7 @@ fn act_cabc(args: &CabcArgs, cancel: &CancelToken) -> Result<(), Stopped> {
         cancel: cancel.clone(),
     };
     let bar = bar();
+    make(args.output.report.as_deref())?;
     let rows = cabc::run(&options, &mut |done, all, what| {
         tell(&bar, done, all, what);
     });
@@ -227,6 +231,7 @@ fn act_wang(args: &WangArgs, cancel: &CancelToken) -> Result<(), Stopped> {
         cancel: cancel.clone(),
     };
     let bar = bar();
+    make(args.output.report.as_deref())?;
     let rows = wang::run(&options, &mut |done, all, what| {
         tell(&bar, done, all, what);
     });
@@ -234,6 +239,13 @@ fn act_wang(args: &WangArgs, cancel: &CancelToken) -> Result<(), Stopped> {
     let rows = rows?;
     let title = "Fronts and teams";
     args.output.put(title, &rows, || wang::figures(&rows))
+}
+
+/// Makes the folder of a report: that it cannot be made is known before minutes of work.
+fn make(report: Option<&Path>) -> Result<(), Failure> {
+    report.map_or(Ok(()), |folder| {
+        make_folder(folder).map_err(|error| Failure::unwritten(&error))
+    })
 }
 
 impl Output {
@@ -276,6 +288,7 @@ fn act_redlarski(args: &RedlarskiArgs, cancel: &CancelToken) -> Result<(), Stopp
     };
     let bar = bar();
     let published = redlarski::Published::read()?;
+    make(args.report.as_deref())?;
     let rows = redlarski::run(&stories, &published, &options, &mut |turn, turns, what| {
         tell(&bar, turn, turns, what);
     });

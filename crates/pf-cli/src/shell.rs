@@ -4,9 +4,8 @@ use crate::failure::{Failure, Status};
 use clap::Command;
 use clap_complete::{Shell, generate};
 use clap_mangen::Man;
-use pf_io::write_whole;
+use pf_io::{make_folder, write_whole};
 use std::{
-    fs,
     io::{Write, stdout},
     path::PathBuf,
 };
@@ -41,10 +40,7 @@ pub(crate) struct ManArgs {
 }
 
 pub(crate) fn man(args: &ManArgs, mut program: Command) -> Result<Status, Failure> {
-    fs::create_dir_all(&args.folder).map_err(|error| {
-        let folder = args.folder.display();
-        Failure::usage(format!("cannot make the folder {folder}: {error}"))
-    })?;
+    make_folder(&args.folder).map_err(|error| Failure::unwritten(&error))?;
     // Gives verbs their names in full: `pf-plan`, and `pf plan` in the synopsis.
     program.build();
     let verbs = program

@@ -85,6 +85,11 @@
 //! assert_eq!(report.stop, Stop::Iterations);
 //! ```
 
+/// The README's example: a problem, where the page above shows a planner.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;
+
 mod adapters;
 mod claims;
 mod clock;

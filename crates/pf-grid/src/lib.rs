@@ -1,27 +1,4 @@
-//! Grids, their moves and exact costs, and the search kernels that grid planners share.
-//!
-//! A [`Grid`] says which cells are free and what they cost, a [`GridProblem`] asks for a path
-//! between two of them under one of the [`Moves`], and its judge states a [`GridCost`] that is
-//! exact: two integers, compared by integers.
-//!
-//! ```
-//! use pf_core::Problem;
-//! use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem, Moves};
-//!
-//! let grid = Grid::parse("
-//!     ....
-//!     .##.
-//!     ....
-//! ").unwrap();
-//! let mut problem = GridProblem::new(grid, Cell::new(0, 0), Cell::new(3, 1))
-//!     .unwrap()
-//!     .with_moves(Moves::Always);
-//! let path = vec![Cell::new(0, 0), Cell::new(1, 0), Cell::new(2, 0), Cell::new(3, 1)];
-//! assert_eq!(problem.judge(&path), Ok(GridCost::of_steps(2, 1)));
-//!
-//! problem.apply(&[GridChange::Blocked(vec![Cell::new(2, 0)])]).unwrap();
-//! assert!(problem.judge(&path).is_err());
-//! ```
+#![doc = include_str!("../README.md")]
 
 mod buckets;
 mod canonical;

@@ -1,6 +1,6 @@
-//! Maps and scenarios in and out. Every reader takes a path, or a name and bytes; every error is a
-//! [`FileError`] that names the file, the place in it, what was found and what was expected.
-//! Nothing panics, nothing is allocated on a header's word, nothing is written by halves.
+#![doc = include_str!("../README.md")]
+//!
+//! # Formats
 //!
 //! | format | read | write |
 //! | --- | --- | --- |
@@ -18,13 +18,6 @@
 //! | scenario TOML in worlds | [`read_world_scenario`] | |
 //! | paths on grids | | [`write_path_csv`], [`write_path_json`] |
 //! | paths in worlds | | [`write_polyline_csv`], [`write_polyline_json`] |
-//!
-//! ```no_run
-//! use pf_io::{LoadOptions, load_grid};
-//! let map = load_grid("maps/grids/office.yaml".as_ref(), &LoadOptions::default())?;
-//! println!("{} of {} cells are free", map.grid.free_cells(), map.grid.width() * map.grid.height());
-//! # Ok::<(), pf_io::FileError>(())
-//! ```
 
 mod error;
 mod load;
@@ -60,4 +53,4 @@ pub use world::{
     Names, Robot, WorldFile, parse_geojson, parse_world, read_geojson, read_world, write_geojson,
     write_world,
 };
-pub use write::whole as write_whole;
+pub use write::{between_writes, make_folder, whole as write_whole};

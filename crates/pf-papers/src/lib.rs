@@ -25,12 +25,9 @@ pub enum PaperError {
     /// A picture could not be drawn.
     #[error(transparent)]
     Picture(#[from] pf_render::NoPicture),
-    /// A file could not be written.
+    /// A file could not be written, or a folder not be made.
     #[error(transparent)]
     File(#[from] pf_io::FileError),
-    /// A folder could not be made.
-    #[error("{0} cannot be made: {1}")]
-    Folder(String, String),
     /// Somebody asked to stop.
     #[error("interrupted")]
     Interrupted,

@@ -4,9 +4,9 @@ use crate::{
     PaperError,
     row::{Row, html},
 };
-use pf_io::write_whole;
+use pf_io::{make_folder, write_whole};
 use pf_render::png_of;
-use std::{fmt::Write, fs, io, path::Path};
+use std::{fmt::Write, io, path::Path};
 
 /// A picture with a file's name, as SVG.
 #[derive(Clone, Debug)]
@@ -33,8 +33,7 @@ pub fn write_report(
     let put = |name: &str, bytes: &[u8]| {
         write_whole(&folder.join(name), |out| io::Write::write_all(out, bytes))
     };
-    fs::create_dir_all(folder)
-        .map_err(|error| PaperError::Folder(folder.display().to_string(), error.to_string()))?;
+    make_folder(folder)?;
     let mut page = format!(
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\n\
          <style>body {{ font: 14px/1.45 'DejaVu Sans', Verdana, sans-serif; margin: 2em; }}\n\

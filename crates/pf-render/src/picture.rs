@@ -410,4 +410,28 @@ mod tests {
         assert_eq!(thin(&[0, 1, 2, 1]), line(&[0, 2, 1]));
         assert_eq!(thin(&[4]), line(&[4]));
     }
+
+    #[test]
+    fn a_long_line_is_drawn_in_short_pieces_without_a_gap() {
+        let zigzag: Vec<[f64; 2]> = (0..2500)
+            .map(|k| [f64::from(k), f64::from(k % 2)])
+            .collect();
+        let svg = Picture::new(2500, 2)
+            .line("walked", Line::Solid, &zigzag)
+            .svg();
+        let pieces: Vec<Vec<&str>> = svg
+            .split("<polyline stroke=\"#fff\"")
+            .skip(1)
+            .filter_map(|piece| piece.split("points=\"").nth(1)?.split('"').next())
+            .map(|points| points.split(' ').collect())
+            .collect();
+        assert!(pieces.len() > 1 && pieces.iter().all(|piece| piece.len() <= 1001));
+        assert!(
+            pieces
+                .windows(2)
+                .all(|pair| pair[0].last() == pair[1].first())
+        );
+        let points: usize = pieces.iter().map(Vec::len).sum();
+        assert_eq!(points - (pieces.len() - 1), zigzag.len());
+    }
 }

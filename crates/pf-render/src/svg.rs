@@ -172,15 +172,26 @@ fn draw(out: &mut String, page: &Page, layer: &Layer) {
     }
 }
 
+/// Longer lines are drawn in pieces of so many points: to fill a stroke takes the square of its length.
+const PIECE: usize = 1000;
+
 /// A path with a white rim, which keeps it readable on dark ground.
 fn path(out: &mut String, page: &Page, points: &[[f64; 2]], colour: &str, line: Line) {
-    let (pen, points) = (page.pen, polyline(page, points));
-    let (dashes, pen) = (dashes(line, pen), short(pen));
+    let (dashes, pen) = (dashes(line, page.pen), short(page.pen));
     let halo = short(page.pen + 2.0);
-    let _ = writeln!(
-        out,
-        r##"<g fill="none" stroke-linejoin="round" stroke-linecap="round"><polyline stroke="#fff" stroke-opacity="0.8" stroke-width="{halo}" points="{points}"/><polyline stroke="{colour}" stroke-width="{pen}"{dashes} points="{points}"/></g>"##
-    );
+    out.push_str(r#"<g fill="none" stroke-linejoin="round" stroke-linecap="round">"#);
+    for stroke in [
+        format!(r##"stroke="#fff" stroke-opacity="0.8" stroke-width="{halo}""##),
+        format!(r#"stroke="{colour}" stroke-width="{pen}"{dashes}"#),
+    ] {
+        // A piece begins where the one before ends.
+        for first in (0..points.len().saturating_sub(1).max(1)).step_by(PIECE) {
+            let piece = &points[first..points.len().min(first + PIECE + 1)];
+            let piece = polyline(page, piece);
+            let _ = write!(out, r#"<polyline {stroke} points="{piece}"/>"#);
+        }
+    }
+    out.push_str("</g>\n");
 }
 
 fn dots(out: &mut String, page: &Page, points: &[[f64; 2]], colour: &str) {

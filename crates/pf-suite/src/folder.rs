@@ -4,7 +4,7 @@ use crate::{
     SuiteError,
     record::{Line, Name, Record},
 };
-use pf_io::{FileError, Place, write_whole};
+use pf_io::{FileError, Place, make_folder, write_whole};
 use serde::Serialize;
 use std::{
     fs::{self, File, OpenOptions, TryLockError},
@@ -58,7 +58,7 @@ impl Folder {
 
     /// The folder with its log, which nobody else may use now.
     fn locked(path: &Path) -> Result<(Self, PathBuf), SuiteError> {
-        fs::create_dir_all(path).map_err(|error| FileError::io(path, "made", error))?;
+        make_folder(path)?;
         let file = path.join(LOG);
         let written = |error| FileError::io(&file, "written", error);
         let mut options = OpenOptions::new();
@@ -107,8 +107,17 @@ impl Folder {
     pub fn add(&mut self, line: &Line) -> Result<(), SuiteError> {
         let mut text = json(line)?;
         text.push('\n');
+        let log = &mut self.log;
+        let end = log.stream_position();
         // At once, so that a run is there or not.
-        let done = self.log.write_all(text.as_bytes());
+        let done = end.and_then(|end| {
+            log.write_all(text.as_bytes()).inspect_err(|_| {
+                // Of half a line nothing is left; where that fails, too, it is dropped by who reads it.
+                let _ = log
+                    .set_len(end)
+                    .and_then(|()| log.seek(SeekFrom::Start(end)));
+            })
+        });
         Ok(done.map_err(|error| FileError::io(&self.path.join(LOG), "written", error))?)
     }
 
@@ -207,10 +216,18 @@ pub fn holds_runs(path: &Path) -> bool {
 /// # Errors
 /// [`SuiteError`] if they cannot be written; each file is written whole or not at all.
 pub fn write(path: &Path, lines: &[Line]) -> Result<(), SuiteError> {
+    let text: Vec<String> = lines.iter().map(json).collect::<Result<_, _>>()?;
     // Nobody may add to what is replaced.
-    let (_held, _) = Folder::locked(path)?;
-    let log: Vec<String> = lines.iter().map(json).collect::<Result<_, _>>()?;
-    put(&path.join(LOG), &log)?;
+    let (mut held, log) = Folder::locked(path)?;
+    if let Err(error) = put(&log, &text) {
+        if !holds_runs(path) {
+            // It was made to be held, and for nothing else.
+            let _ = fs::remove_file(&log);
+        }
+        return Err(error);
+    }
+    // Results of the old log do not stand beside the new one.
+    held.unfinish()?;
     finish(path, lines)
 }
 

@@ -21,13 +21,12 @@ use comfy_table::{CellAlignment, Table, presets};
 use page::Page;
 use pf_core::{Budget, CancelToken, Context, Report};
 use pf_geom::TeamProblem;
-use pf_io::write_whole;
+use pf_io::{make_folder, write_whole};
 use pf_moabc::Preference;
 use pf_planners::{Answer, AnyEntry, Entry, Order, Runner, all, find, team_planners};
 use pf_render::{Film, Found};
 use shows::{PLAYS, Play, SHOWS, Show};
 use std::{
-    fs,
     io::{Write, stdout},
     path::PathBuf,
     time::Duration,
@@ -77,9 +76,7 @@ const TEAM_HEADER: [&str; 7] = [
 ];
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
-    fs::create_dir_all(&args.out).map_err(|error| {
-        Failure::Internal(format!("{} cannot be made: {error}", args.out.display()))
-    })?;
+    make_folder(&args.out).map_err(|error| Failure::unwritten(&error))?;
     let mut page = Page::begin();
     let mut rows = Vec::new();
     for show in SHOWS {

@@ -44,10 +44,10 @@ fn animate(question: &[&str], more: &[&str], out: &str) -> Run {
 }
 
 /// A frame as it is seen, and how long it stays, in hundredths of a second.
-type Seen = (Vec<[u8; 4]>, u16);
+pub(crate) type Seen = (Vec<[u8; 4]>, u16);
 
 /// Width and height, and every frame.
-fn frames(path: &Path) -> ([u16; 2], Vec<Seen>) {
+pub(crate) fn frames(path: &Path) -> ([u16; 2], Vec<Seen>) {
     let mut options = DecodeOptions::new();
     options.set_color_output(ColorOutput::RGBA);
     let mut decoder = options
@@ -201,7 +201,8 @@ fn a_question_without_a_path_is_shown_too() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_leaves_no_file() {
-    use std::{process::Command, thread, time::Duration};
+    use crate::press_ctrl_c;
+    use std::{thread, time::Duration};
     let folder = Folder::with(&[]);
     let out = folder.name("film.gif");
     // It would go on for hours.
@@ -218,10 +219,7 @@ fn ctrl_c_leaves_no_file() {
     let child = command(&[&["animate"], MOSAIC, &more[..]].concat()).spawn();
     let mut child = child.unwrap();
     thread::sleep(Duration::from_millis(500));
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
+    press_ctrl_c(&child);
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert_eq!(fs::read_dir(folder.path("")).unwrap().count(), 0);
 }

@@ -170,7 +170,8 @@ fn what_is_there_is_not_run_again_and_a_torn_line_is_dropped() {
 #[cfg(unix)]
 #[test]
 fn ctrl_c_keeps_what_is_done_and_the_same_command_goes_on() {
-    use std::process::{Command, Stdio};
+    use crate::press_ctrl_c;
+    use std::process::Stdio;
     // Runs of some milliseconds, and many of them.
     let suite = SUITE
         .replace("iterations = 20, ", "iterations = 400, ")
@@ -186,10 +187,7 @@ fn ctrl_c_keeps_what_is_done_and_the_same_command_goes_on() {
     while !fs::metadata(&log).is_ok_and(|facts| facts.len() > 0) {
         std::thread::yield_now();
     }
-    let kill = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
-    assert!(kill.unwrap().success());
+    press_ctrl_c(&child);
     let run = Run::from(child.wait_with_output().unwrap()).ends(130);
     assert!(run.out.contains("the same command goes on"), "{}", run.out);
     assert_eq!(folder.names("out"), ["runs.jsonl"]);

@@ -5,6 +5,7 @@ mod answers;
 mod benches;
 mod conversions;
 mod demo;
+mod disks;
 mod drives;
 mod externals;
 mod faults;
@@ -19,6 +20,7 @@ mod scens;
 mod shells;
 mod teams;
 mod walks;
+mod whole;
 mod worlds;
 mod worlds_in_time;
 
@@ -38,6 +40,14 @@ fn command(args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pf"));
     command.current_dir(root()).args(args).stdin(Stdio::null());
     command
+}
+
+/// Presses Ctrl-C, also of a program that has just ended.
+#[cfg(unix)]
+#[track_caller]
+fn press_ctrl_c(child: &std::process::Child) {
+    use rustix::process::{Pid, Signal, kill_process};
+    kill_process(Pid::from_child(child), Signal::INT).expect("nobody has waited for it");
 }
 
 /// What a run of the program left.

@@ -7,9 +7,9 @@ use super::{
     text::{micros, number, significant, verdict},
 };
 use crate::{PaperError, statistics::Spread};
-use pf_io::write_whole;
+use pf_io::{make_folder, write_whole};
 use pf_render::png_of;
-use std::{fmt::Write, fs, io, path::Path};
+use std::{fmt::Write, io, path::Path};
 
 /// Writes `report.html` and the figures into a folder, which is made if need be.
 ///
@@ -20,8 +20,7 @@ pub fn write_report(folder: &Path, stories: &[Story], rows: &[Row]) -> Result<()
     let put = |name: &str, bytes: &[u8]| {
         write_whole(&folder.join(name), |out| io::Write::write_all(out, bytes))
     };
-    fs::create_dir_all(folder)
-        .map_err(|error| PaperError::Folder(folder.display().to_string(), error.to_string()))?;
+    make_folder(folder)?;
     let mut page = String::from(HEAD);
     for table in 1..=5 {
         write_table(&mut page, rows, table);

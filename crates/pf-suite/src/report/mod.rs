@@ -14,9 +14,9 @@ pub use table::Table;
 
 use crate::{SuiteError, record::Line};
 use data::Data;
-use pf_io::{FileError, write_whole};
+use pf_io::{make_folder, write_whole};
 use pf_render::png_of;
-use std::{fs, path::Path};
+use std::path::Path;
 
 const UNRANKED: &str = " There are no mean ranks, as there are not two problems in which all \
                         contenders, and at least two, take part.";
@@ -101,7 +101,7 @@ impl Report {
     /// # Errors
     /// [`SuiteError`] if a file cannot be written; each is written whole or not at all.
     pub fn write(&self, folder: &Path) -> Result<(), SuiteError> {
-        fs::create_dir_all(folder).map_err(|error| FileError::io(folder, "made", error))?;
+        make_folder(folder)?;
         let put = |name: String, bytes: &[u8]| {
             write_whole(&folder.join(name), |out| out.write_all(bytes))
         };

@@ -95,13 +95,16 @@ impl Books {
             content.by_job.insert((*point, seeds[0], seeds[1]), *score);
         }
         let clock = Clock::default();
-        Ok(Self {
+        let mut books = Self {
             file: search.file.clone(),
             content,
             clock,
             written: clock.now(),
-            fresh: false,
-        })
+            // A file that cannot be written is known before anything is run.
+            fresh: true,
+        };
+        books.save()?;
+        Ok(books)
     }
 
     pub(super) fn score(&self, (point, seeds): &Job) -> Option<Score> {
