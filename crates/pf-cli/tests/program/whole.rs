@@ -18,10 +18,10 @@ budget = { iterations = 60, evaluations = 4000 }
 file = "world.toml"
 
 [[planner]]
-name = "pso"
+name = "lbfgs"
 
 [[planner]]
-name = "lbfgs"
+name = "pso"
 
 [[planner]]
 name = "aco-star"
