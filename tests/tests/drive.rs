@@ -1,7 +1,7 @@
 //! Drives through unknown maps: what repairs and what starts over agree at every discovery.
 #![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
-use pf_classic::{AStar, DStarLite};
+use pf_classic::{AStar, Auto, DStarLite};
 use pf_core::{
     Claims, Context, Outcome, Planner, Problem, Replanner, Report, Revision, Unsupported,
 };
@@ -94,6 +94,11 @@ fn repaired_and_fresh_plans_cost_the_same_at_every_discovery() {
 #[test]
 fn read_off_and_fresh_plans_cost_the_same_at_every_discovery() {
     drive_them_all::<RfdField>();
+}
+
+#[test]
+fn kept_and_fresh_plans_cost_the_same_at_every_discovery() {
+    drive_them_all::<Auto>();
 }
 
 fn drive_them_all<T: Replanner<GridProblem> + Default>() {

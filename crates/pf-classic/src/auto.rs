@@ -1,6 +1,6 @@
 //! A choice between A* and jump point search.
 
-use crate::{AStar, Jps};
+use crate::{AStar, Jps, last_path::LastPath};
 use pf_core::{
     Claims, Context, InvalidParams, Planner, Problem, Replanner, Report, Revision, Stamp,
     Unsupported, params,
@@ -18,7 +18,9 @@ params!(AutoParams {});
 /// Jump points pay where obstacles are large: rooms, caves, mazes. Where they are single cells strewn
 /// about, nearly every cell is one, and A* is faster by up to a quarter; on terrain there are none. The
 /// note `search` says which of the two answered, and why. A map is surveyed at the first query, and
-/// again when one cell in a hundred has changed.
+/// again when one cell in a hundred has changed. A replan keeps what is left of the last path, without a
+/// search, where nothing happened but that the robot followed it and cells were blocked beside it; the
+/// note `replanned` says `kept` or `afresh`.
 ///
 /// One iteration is one expansion of the search chosen.
 ///
@@ -47,6 +49,7 @@ pub struct Auto {
     changed: usize,
     /// Of the problem that was answered last.
     known: Option<Stamp>,
+    last: LastPath,
 }
 
 /// What a map looks like, and what that means.
@@ -145,11 +148,13 @@ impl Planner<GridProblem> for Auto {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.known = Some(problem.stamp());
-        if self.choose(problem, cx) {
+        let report = if self.choose(problem, cx) {
             self.jps.plan(problem, cx)
         } else {
             self.astar.plan(problem, cx)
-        }
+        }?;
+        self.last.remember(problem, &report);
+        Ok(report)
     }
 }
 
@@ -171,11 +176,13 @@ impl Replanner<GridProblem> for Auto {
                 self.surveyed = Some(grid.stamp());
             }
         }
-        self.known = Some(problem.stamp());
-        if self.choose(problem, cx) {
-            self.jps.replan(revision, cx)
-        } else {
-            self.astar.plan(problem, cx)
+        self.jps.follow(revision);
+        if let Some(report) = self.last.answer(revision, cx) {
+            self.known = Some(problem.stamp());
+            self.last.remember(problem, &report);
+            return Ok(report);
         }
+        cx.note("replanned", "afresh");
+        self.plan(problem, cx)
     }
 }

@@ -1,7 +1,7 @@
 //! Every answer beside the oracle's: thousands of made-up maps, tens of thousands of changes.
 #![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
-use pf_classic::{AStar, DStarLite, DStarLiteParams, Dijkstra};
+use pf_classic::{AStar, Auto, DStarLite, DStarLiteParams, Dijkstra};
 use pf_conformance::{
     grid::{Recipe, drawing, oracle, random_batch, random_problem},
     seeded,
@@ -128,6 +128,41 @@ fn d_star_lite_is_exact_when_it_never_gives_up() {
     };
     let ways = play(31, 300, 100, &params);
     often(&ways, &[("repaired", 12_000)]);
+}
+
+/// A robot that follows its path, and learns of walls, mostly.
+#[test]
+fn the_choice_is_exact_where_it_keeps_its_path() {
+    let mut rng = seeded(33);
+    let mut ways = BTreeMap::new();
+    for story in 0..300 {
+        let recipe = Recipe::any(&mut rng, 5..=60);
+        let mut problem = random_problem(&mut rng, &recipe);
+        let mut planner = Auto::default();
+        let mut report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        for batch in 0..20 {
+            let most = [1, 3, 20][rng.random_range(0..3usize)];
+            let mut changes = random_batch(&mut rng, &problem, most);
+            if rng.random_bool(0.8) {
+                changes.retain(|change| matches!(change, GridChange::Blocked(_)));
+            }
+            if let Some(best) = report.outcome.solved() {
+                let step = rng.random_range(0..best.solution.len().min(4));
+                changes.push(GridChange::StartMoved(best.solution[step]));
+            }
+            let revision = problem.revise(&changes).unwrap();
+            report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            assert_eq!(
+                proven(&problem, &report),
+                oracle(&problem),
+                "story {story}, batch {batch}: {changes:?} led to\n{}",
+                drawing(&problem)
+            );
+            let way = report.note("replanned").unwrap_or_default();
+            *ways.entry(way.to_owned()).or_default() += 1;
+        }
+    }
+    often(&ways, &[("kept", 1000), ("afresh", 1000)]);
 }
 
 /// Every other row is a wall with a gap at alternating ends.

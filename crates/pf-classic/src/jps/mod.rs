@@ -129,13 +129,9 @@ fn report(
     }
 }
 
-impl Replanner<GridProblem> for Jps {
-    /// Follows the changes with its bits, and searches again.
-    fn replan(
-        &mut self,
-        revision: &Revision<'_, GridProblem>,
-        cx: &mut Context<'_, GridProblem>,
-    ) -> Result<Report<GridProblem>, Unsupported> {
+impl Jps {
+    /// Follows changes with its bits.
+    pub(crate) fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
         let problem = revision.problem();
         if let Some(changes) = revision.since(self.known) {
             let cells = changes.iter().flat_map(|change| match change {
@@ -145,6 +141,17 @@ impl Replanner<GridProblem> for Jps {
             self.map.follow(problem.grid(), cells.copied());
             self.known = Some(problem.stamp());
         }
-        self.plan(problem, cx)
+    }
+}
+
+impl Replanner<GridProblem> for Jps {
+    /// Follows the changes with its bits, and searches again.
+    fn replan(
+        &mut self,
+        revision: &Revision<'_, GridProblem>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Result<Report<GridProblem>, Unsupported> {
+        self.follow(revision);
+        self.plan(revision.problem(), cx)
     }
 }
