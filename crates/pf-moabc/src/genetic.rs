@@ -32,6 +32,32 @@ pub(crate) fn mutate(
     }
 }
 
+/// A root, taken by square roots where they lead to it: a power takes several times as long, and an
+/// index of 15 asks for the sixteenth.
+#[derive(Clone, Copy, Debug)]
+enum Root {
+    Squares(u32),
+    Power(f64),
+}
+
+impl Root {
+    /// The root of this degree.
+    fn new(degree: f64) -> Self {
+        let exact = |&times: &u32| f64::from(1_u32 << times).total_cmp(&degree).is_eq();
+        (0..=8)
+            .find(exact)
+            .map_or(Self::Power(1.0 / degree), Self::Squares)
+    }
+
+    #[inline]
+    fn of(self, x: f64) -> f64 {
+        match self {
+            Self::Squares(times) => (0..times).fold(x, |x, _| x.sqrt()),
+            Self::Power(power) => libm::pow(x, power),
+        }
+    }
+}
+
 /// Simulated binary crossover (Deb and Agrawal 1995): half the numbers of two parents become two
 /// with the same mean; `row` gets those of one child, the parent's or the other's side by `second`.
 pub(crate) fn cross(
@@ -42,7 +68,7 @@ pub(crate) fn cross(
     rng: &mut PlanRng,
     row: &mut [f64],
 ) {
-    let power = 1.0 / (index + 1.0);
+    let root = Root::new(index + 1.0);
     for ((gene, &a), &b) in row.iter_mut().zip(a).zip(b) {
         let (changes, u, swaps) = (
             rng.random_bool(0.5),
@@ -54,11 +80,11 @@ pub(crate) fn cross(
         if !changes || (a - b).abs() < 1e-14 {
             continue;
         }
-        let spread = if u <= 0.5 {
-            libm::pow(2.0 * u, power)
+        let spread = root.of(if u <= 0.5 {
+            2.0 * u
         } else {
-            libm::pow(1.0 / (2.0 * (1.0 - u)), power)
-        };
+            1.0 / (2.0 * (1.0 - u))
+        });
         let (mean, half) = (f64::midpoint(a, b), (b - a) / 2.0);
         *gene = if side {
             mean + spread * half

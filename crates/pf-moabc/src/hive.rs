@@ -68,6 +68,9 @@ pub(crate) struct Hive {
     workers: Workers,
 }
 
+/// So many numbers are worth waking a thread for: it takes some 10 us, and they 40 and more.
+const WORTH_A_THREAD: usize = 2000;
+
 /// Some rows and their marks.
 type Share<'a> = (&'a mut [f64], &'a mut [Mark]);
 
@@ -115,8 +118,7 @@ impl Hive {
         self.brood.width = width;
         self.brood.genes.resize((first + count) * width, 0.0);
         self.brood.marks.resize(first + count, Mark::default());
-        // Threads are not worth starting for a handful.
-        let threads = common.threads.min(count / 16).max(1);
+        let threads = common.threads.min(count * width / WORTH_A_THREAD).max(1);
         self.scratch
             .resize_with(threads.max(self.scratch.len()), Scratch::default);
         let share = count.div_ceil(threads).max(1);

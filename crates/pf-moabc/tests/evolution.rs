@@ -2,7 +2,7 @@
 
 use pf_conformance::team::{TeamRecipe, crossing};
 use pf_core::{
-    Budget, Context, Cost, InvalidParams, Outcome, Params, Planner, Problem, Replanner, Stop,
+    Budget, Context, Cost, Event, InvalidParams, Outcome, Params, Planner, Problem, Replanner, Stop,
 };
 use pf_geom::{Circle, Point, Rectangle, Robot, TeamChange, TeamProblem, World};
 use pf_moabc::{
@@ -57,14 +57,22 @@ fn two() -> TeamProblem {
 fn threads_change_nothing() {
     for kind in KINDS {
         let [one, two, three] = ["1", "2", "3"].map(|threads| {
-            let settings = [("threads", threads), ("evaluations", "2000")];
-            let report = planner(kind, &settings)
-                .plan(&two(), &mut Context::seeded(3))
-                .unwrap();
-            report.outcome.solved().map(|front| front.solution.clone())
+            // Steps so short that even a small batch is worth sharing.
+            let settings = [("threads", threads), ("evaluations", "3000"), ("step", "1")];
+            let mut heard = Vec::new();
+            let mut listen = |event: &Event<'_, TeamProblem>| {
+                if let Event::Candidate(front) = event {
+                    heard.extend_from_slice(front.members());
+                }
+            };
+            let mut cx = Context::seeded(3).traced(&mut listen);
+            let report = planner(kind, &settings).plan(&two(), &mut cx).unwrap();
+            let front = report.outcome.solved().map(|front| front.solution.clone());
+            (heard, front)
         });
-        assert_eq!(one, two, "{kind}");
-        assert_eq!(one, three, "{kind}");
+        assert!(one.0.len() > 2000, "{kind}");
+        assert!(one == two, "{kind}");
+        assert!(one == three, "{kind}");
     }
 }
 
