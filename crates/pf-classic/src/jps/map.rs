@@ -75,16 +75,17 @@ impl JumpMap {
         let Some((_, moves, layout)) = self.made else {
             return;
         };
+        let around = self.steps(&layout);
         for cell in changed {
-            let id = layout.id(cell);
-            for offset in layout.offsets().into_iter().chain([0]) {
-                let id = id.wrapping_add_signed(offset);
-                let stops = if grid.is_free_id(id) {
-                    self.forced[usize::from(grid.around_id(id))]
+            let centre = self.place(&layout, layout.id(cell));
+            for step in around.into_iter().chain([(0, 0)]) {
+                let place = centre.step(step);
+                let stops = if grid.is_free_id(place.id) {
+                    self.forced[usize::from(grid.around_id(place.id))]
                 } else {
                     0b1111
                 };
-                self.set(self.place(&layout, id), stops);
+                self.set(place, stops);
             }
         }
         self.made = Some((grid.stamp(), moves, layout));
@@ -98,15 +99,13 @@ impl JumpMap {
         })
     }
 
+    #[inline]
     fn set(&mut self, place: Place, stops: u8) {
         for (k, bits) in self.stops.iter_mut().enumerate() {
             let at = place.of(k);
-            let bit = 1 << (at % 64);
-            if stops >> k & 1 == 1 {
-                bits[at / 64] |= bit;
-            } else {
-                bits[at / 64] &= !bit;
-            }
+            // No branch: whether a scan stops is hard to guess.
+            let word = &mut bits[at / 64];
+            *word = *word & !(1 << (at % 64)) | u64::from(stops >> k & 1) << (at % 64);
         }
     }
 
