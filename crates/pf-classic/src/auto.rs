@@ -128,7 +128,7 @@ impl Auto {
             cx.note("search", "astar: terrain");
             return false;
         };
-        cx.note("search", survey.why.as_str());
+        cx.note("search", survey.why.clone());
         !survey.strewn
     }
 }

@@ -3,6 +3,7 @@
 use crate::{Clock, Event, Note, Outcome, Problem, Proof, Report, Solved, Stats, Stop, Trace};
 use rand::SeedableRng;
 use std::{
+    borrow::Cow,
     fmt, mem,
     sync::{
         Arc,
@@ -347,7 +348,7 @@ impl<'a, P: Problem> Context<'a, P> {
     }
 
     /// Adds a note to the report.
-    pub fn note(&mut self, key: &'static str, text: impl Into<String>) {
+    pub fn note(&mut self, key: &'static str, text: impl Into<Cow<'static, str>>) {
         let text = text.into();
         self.notes.push(Note { key, text });
     }

@@ -123,7 +123,7 @@ pub struct Note {
     /// What it is about, for programs: `"nearest"`, `"chose"`, `"repaired"`.
     pub key: &'static str,
     /// What there is to say, for people.
-    pub text: String,
+    pub text: Cow<'static, str>,
 }
 
 impl fmt::Display for Note {

@@ -68,7 +68,7 @@ impl FromScene for GridProblem {
             && let Ok(cell) = note.text.parse::<Cell>()
         {
             let centre = raster.centre(cell);
-            note.text = format!("{},{}", centre.x, centre.y);
+            note.text = format!("{},{}", centre.x, centre.y).into();
         }
         note
     }

@@ -138,7 +138,10 @@ fn lie<P: Problem>(problem: &P, solved: &Solved<P>) -> Option<String> {
 /// What a report says of the scene.
 fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> Answer {
     let mut notes: Vec<Note> = Vec::new();
-    let mut say = |key, text: String| notes.push(Note { key, text });
+    let mut say = |key, text: String| {
+        let text = text.into();
+        notes.push(Note { key, text });
+    };
     if let Some(conversion) = &posed.conversion {
         say("converted", conversion.words(scene));
         match &report.outcome {
