@@ -129,7 +129,15 @@ fn what_makes_no_sense_is_refused() {
     let folder = folder("3.00000");
     for (args, words) in [
         (&["grid", "--planner", "bstar"][..], "the contenders are"),
-        (&["grid", "--filter", "large"], "no .map file"),
+        (
+            &["grid", "--filter", "large"],
+            "no map's name contains `large`; the maps are `small`",
+        ),
+        // One that is there does not hide another that is not.
+        (
+            &["replan", "--filter", "small", "--filter", "smell"],
+            "contains `smell`; did you mean `small`?",
+        ),
         (&["grid", "--plot", "plot.jpg"], ".svg or .png"),
         (&["replan", "--planner", "bstar"], "known: "),
         (&["replan", "--event", "flood"], "10-near"),
@@ -140,4 +148,29 @@ fn what_makes_no_sense_is_refused() {
         let err = String::from_utf8_lossy(&output.stderr);
         assert!(err.contains(words), "{args:?}: {err}");
     }
+    let empty = tempfile::tempdir().unwrap();
+    let output = bench(&empty, &["grid"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no .map file in it"));
+}
+
+#[test]
+fn a_case_of_worlds_that_there_is_none_of_is_refused() {
+    let words = [
+        "worlds",
+        "--worlds",
+        "1",
+        "--queries",
+        "1",
+        "--case",
+        "goal driftz",
+    ];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pf-bench"));
+    let output = command.args(words).output().unwrap();
+    assert!(!output.status.success());
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        err.contains("no case's name contains `goal driftz`"),
+        "{err}"
+    );
+    assert!(err.contains("`10 shapes, goal drifts by 2`, "), "{err}");
 }
