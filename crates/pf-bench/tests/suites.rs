@@ -80,7 +80,7 @@ fn a_length_that_is_not_the_stated_one_makes_it_fail() {
 /// The fresh A*, then all that repair and prove.
 fn repairers() -> Vec<&'static str> {
     let all = pf_planners::grid_planners().filter(|p| p.replans() && p.claims().optimal);
-    let others = all.map(|p| p.key()).filter(|&key| key != "astar");
+    let others = all.map(AnyEntry::key).filter(|&key| key != "astar");
     std::iter::once("astar").chain(others).collect()
 }
 
