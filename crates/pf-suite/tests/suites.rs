@@ -5,7 +5,7 @@ use pf_suite::{Plan, Shard, Suite, SuiteError, run};
 use std::{fs, num::NonZeroUsize};
 use tempfile::TempDir;
 
-const FILES: [(&str, &str); 7] = [
+const FILES: [(&str, &str); 8] = [
     (
         "hall.map",
         "type octile\nheight 2\nwidth 3\nmap\n...\n...\n",
@@ -23,6 +23,10 @@ const FILES: [(&str, &str); 7] = [
          [[robot]]\nname = \"right\"\nstart = [8, 1]\ngoal = [1, 8]\nradius = 0.5\n",
     ),
     ("bare.toml", "bounds = { min = [0, 0], max = [9, 9] }\n"),
+    (
+        "way.toml",
+        "world = \"yard.toml\"\nstart = [1, 1]\ngoal = [8, 8]\nradius = 0.5\n",
+    ),
     (
         "case.toml",
         "map = \"hall.map\"\nstart = [0, 0]\ngoal = [2, 1]\n",
@@ -49,6 +53,7 @@ const OF_A_SCEN: &str = "file = \"hall.map\"\nscen = \"hall.scen\"\n";
 const IN_A_WORLD: &str = "file = \"yard.toml\"\nfrom = [1, 1]\nto = [8, 8]\n";
 const OF_ROBOTS: &str = "file = \"yard.toml\"\n";
 const OF_A_CASE: &str = "file = \"case.toml\"\n";
+const OF_A_WAY: &str = "file = \"way.toml\"\n";
 const OF_A_TEAM: &str = "team = \"yard.toml\"\n";
 
 /// Each key, with a value that is good where the key has a meaning.
@@ -88,6 +93,11 @@ fn every_key_has_a_meaning_or_is_refused_by_name_and_place() {
             "case radius clearance cell moves",
         ),
         (OF_A_CASE, "a scenario on grids", "radius clearance moves"),
+        (
+            OF_A_WAY,
+            "a scenario in worlds",
+            "radius clearance cell moves",
+        ),
         (OF_A_TEAM, "a team", "ease"),
     ];
     for (form, what, good) in forms {
@@ -103,7 +113,7 @@ fn every_key_has_a_meaning_or_is_refused_by_name_and_place() {
                 OF_A_TEAM => false,
                 OF_ROBOTS => matches!(key, "team" | "from" | "to"),
                 // Its one case has another name.
-                OF_A_CASE => matches!(key, "team" | "case"),
+                OF_A_CASE | OF_A_WAY => matches!(key, "team" | "case"),
                 _ => key == "team",
             };
             if there || another {
