@@ -4,9 +4,10 @@ use anyhow::{Context as _, Result, bail};
 use pf_classic::AStar;
 use pf_core::{Context, PlanRng, Planner};
 use pf_grid::{Cell, Grid, GridProblem, Moves};
-use pf_io::{LoadOptions, Scen, ScenRow, load_grid, read_scen};
+use pf_io::{LoadOptions, Scen, ScenRow, load_grid, read_scen, toml_tree::nearest};
 use rand::{RngExt, SeedableRng};
 use std::{
+    borrow::Cow,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -39,33 +40,64 @@ impl Maps {
     /// The same; where no map is asked for, those whose names contain one of `usual`, if there are
     /// any.
     pub(crate) fn files_or(&self, usual: &[&str]) -> Result<Vec<PathBuf>> {
+        let all = self.all()?;
+        let names: Vec<_> = all.iter().map(|path| name(path)).collect();
+        for asked in &self.filter {
+            if !names.iter().any(|name| name.contains(asked.as_str())) {
+                let names = names.iter().map(|name| name.trim_end_matches(".map"));
+                bail!("{}", unknown("--filter", asked, "map", names));
+            }
+        }
+        let among = |parts: &[&str]| -> Vec<PathBuf> {
+            let wanted = |path: &&PathBuf| parts.iter().any(|part| name(path).contains(part));
+            all.iter().filter(wanted).cloned().collect()
+        };
         let asked: Vec<&str> = self.filter.iter().map(String::as_str).collect();
-        let mut maps = self.matching(if asked.is_empty() { usual } else { &asked })?;
-        if maps.is_empty() && asked.is_empty() {
-            maps = self.matching(&[])?;
-        }
-        if maps.is_empty() {
-            bail!("{}: no .map file of that name in it", self.maps.display());
-        }
-        Ok(maps)
+        let maps = among(if asked.is_empty() { usual } else { &asked });
+        Ok(if maps.is_empty() { all } else { maps })
     }
 
-    fn matching(&self, parts: &[&str]) -> Result<Vec<PathBuf>> {
+    /// All maps of the folder.
+    fn all(&self) -> Result<Vec<PathBuf>> {
         let folder = &self.maps;
         let entries = std::fs::read_dir(folder)
             .with_context(|| format!("{}: expected a folder of .map files", folder.display()))?;
         let mut maps = vec![];
         for entry in entries {
             let path = entry?.path();
-            let name = path.file_name().unwrap_or_default().to_string_lossy();
-            let wanted = parts.is_empty() || parts.iter().any(|part| name.contains(part));
-            if name.ends_with(".map") && wanted {
-                maps.push(path.clone());
+            if name(&path).ends_with(".map") {
+                maps.push(path);
             }
+        }
+        if maps.is_empty() {
+            bail!("{}: no .map file in it", folder.display());
         }
         maps.sort();
         Ok(maps)
     }
+}
+
+/// A file's name, its ending included.
+fn name(path: &Path) -> Cow<'_, str> {
+    path.file_name().unwrap_or_default().to_string_lossy()
+}
+
+/// What is said of a part that is in no name: what was asked, what was probably meant, and what there is.
+pub(crate) fn unknown<'n>(
+    option: &str,
+    asked: &str,
+    what: &str,
+    names: impl Iterator<Item = &'n str>,
+) -> String {
+    let names: Vec<&str> = names.collect();
+    let near = nearest(asked, names.iter().copied());
+    let near = near.map(|near| format!("did you mean `{near}`? "));
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    format!(
+        "{option}: no {what}'s name contains `{asked}`; {}the {what}s are {}",
+        near.unwrap_or_default(),
+        quoted.join(", ")
+    )
 }
 
 impl Case {

@@ -4,11 +4,15 @@ mod changes;
 mod kernels;
 mod paths;
 
-use crate::protocol::{Row, Tally, json, say};
+use crate::{
+    cases::unknown,
+    protocol::{Row, Tally, json, say},
+};
 use anyhow::{Result, bail};
 use pf_core::PlanRng;
 use pf_geom::{Circle, Point, Polygon, Rectangle, Shape, Vector};
 use rand::RngExt;
+use std::cell::RefCell;
 
 #[derive(clap::Args)]
 pub(crate) struct Args {
@@ -27,11 +31,26 @@ pub(crate) struct Args {
     /// One JSON object a line
     #[arg(long)]
     json: bool,
+    /// The names of all cases that were come by.
+    #[arg(skip)]
+    known: RefCell<Vec<String>>,
 }
 
 impl Args {
     fn wants(&self, case: &str) -> bool {
+        self.known.borrow_mut().push(case.to_owned());
         case.contains(&self.case)
+    }
+
+    /// Refuses a part that was in no name.
+    fn check(&self) -> Result<()> {
+        let mut known = self.known.take();
+        if !known.iter().any(|case| case.contains(&self.case)) {
+            known.dedup();
+            let names = known.iter().map(String::as_str);
+            bail!("{}", unknown("--case", &self.case, "case", names));
+        }
+        Ok(())
     }
 }
 
@@ -98,6 +117,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     kernels::run(args, &mut tell)?;
     paths::run(args, &mut tell)?;
     changes::run(args, &mut tell)?;
+    args.check()?;
     if mismatches > 0 {
         bail!("{mismatches} answers do not agree");
     }

@@ -1,6 +1,7 @@
 //! The suites as their users see them, on a small map; what they time is no matter here.
 #![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
+use pf_planners::AnyEntry;
 use serde_json::Value;
 use std::{
     fmt::Write as _,
@@ -76,6 +77,13 @@ fn a_length_that_is_not_the_stated_one_makes_it_fail() {
     assert!(err.contains("answers do not agree"), "{err}");
 }
 
+/// The fresh A*, then all that repair and prove.
+fn repairers() -> Vec<&'static str> {
+    let all = pf_planners::grid_planners().filter(|p| p.replans() && p.claims().optimal);
+    let others = all.map(AnyEntry::key).filter(|&key| key != "astar");
+    std::iter::once("astar").chain(others).collect()
+}
+
 #[test]
 fn replan_tells_latency_and_upkeep_of_every_class() {
     let folder = folder("3.00000");
@@ -96,9 +104,9 @@ fn replan_tells_latency_and_upkeep_of_every_class() {
             .iter()
             .map(|row| row["planner"].as_str().unwrap())
             .collect();
-        let ours = ["astar", "d-star-lite", "rfd-exact", "rfd-field"];
-        assert_eq!(planners[..4], ours);
-        assert_eq!(planners[4..], ["condor_grid::DStarLite"]);
+        let mut expected = repairers();
+        expected.push("condor_grid::DStarLite");
+        assert_eq!(planners, expected);
         for row in of {
             assert_eq!(row["mismatches"], 0, "{row}");
             let ours = row["planner"] != "condor_grid::DStarLite";
@@ -113,7 +121,7 @@ fn drive_compares_at_every_discovery() {
         &folder("3.00000"),
         &["drive", "--json", "--sensor", "2"],
     ));
-    assert_eq!(rows.len(), 4);
+    assert_eq!(rows.len(), repairers().len());
     for row in rows {
         assert_eq!(
             (&row["mismatches"], &row["arrived"]),
@@ -129,7 +137,15 @@ fn what_makes_no_sense_is_refused() {
     let folder = folder("3.00000");
     for (args, words) in [
         (&["grid", "--planner", "bstar"][..], "the contenders are"),
-        (&["grid", "--filter", "large"], "no .map file"),
+        (
+            &["grid", "--filter", "large"],
+            "no map's name contains `large`; the maps are `small`",
+        ),
+        // One that is there does not hide another that is not.
+        (
+            &["replan", "--filter", "small", "--filter", "smell"],
+            "contains `smell`; did you mean `small`?",
+        ),
         (&["grid", "--plot", "plot.jpg"], ".svg or .png"),
         (&["replan", "--planner", "bstar"], "known: "),
         (&["replan", "--event", "flood"], "10-near"),
@@ -140,4 +156,29 @@ fn what_makes_no_sense_is_refused() {
         let err = String::from_utf8_lossy(&output.stderr);
         assert!(err.contains(words), "{args:?}: {err}");
     }
+    let empty = tempfile::tempdir().unwrap();
+    let output = bench(&empty, &["grid"]);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("no .map file in it"));
+}
+
+#[test]
+fn a_case_of_worlds_that_there_is_none_of_is_refused() {
+    let words = [
+        "worlds",
+        "--worlds",
+        "1",
+        "--queries",
+        "1",
+        "--case",
+        "goal driftz",
+    ];
+    let mut command = Command::new(env!("CARGO_BIN_EXE_pf-bench"));
+    let output = command.args(words).output().unwrap();
+    assert!(!output.status.success());
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        err.contains("no case's name contains `goal driftz`"),
+        "{err}"
+    );
+    assert!(err.contains("`10 shapes, goal drifts by 2`, "), "{err}");
 }

@@ -1,6 +1,9 @@
 //! `pf bench`: suites of problems and planners.
 
-use crate::failure::{Failure, Status};
+use crate::{
+    failure::{Failure, Status},
+    interrupt::at_once,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
 use pf_suite::{Done, Line, Plan, Shard, Suite, SuiteError, folder, report::Report, run};
@@ -89,6 +92,9 @@ struct MergeArgs {
 }
 
 pub(crate) fn act(args: &Args, cancel: &CancelToken) -> Result<Status, Failure> {
+    if args.verb.is_some() && at_once(cancel) {
+        return Ok(Status::Interrupted);
+    }
     match (&args.verb, &args.suite, &args.out) {
         (Some(Verb::Merge(args)), ..) => merge(args),
         (Some(Verb::Report(args)), ..) => report(args),

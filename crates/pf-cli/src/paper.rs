@@ -1,9 +1,12 @@
 //! `pf paper`: the experiments of papers.
 
-use crate::failure::{Failure, Status};
+use crate::{
+    failure::{Failure, Status},
+    interrupt::at_once,
+};
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
-use pf_io::make_folder;
+use pf_io::{make_folder, toml_tree::nearest};
 use pf_papers::{
     PaperError, cabc, faustino, kim,
     page::{Figure, write_report},
@@ -81,7 +84,7 @@ struct WangArgs {
     #[arg(long, value_name = "N", default_value_t = 30, value_parser = clap::value_parser!(u32).range(1..))]
     runs: u32,
     /// Only the problems whose name contains this
-    #[arg(long, value_name = "TEXT")]
+    #[arg(long, value_name = "TEXT", allow_hyphen_values = true)]
     only: Option<String>,
     #[command(flatten)]
     output: Output,
@@ -190,7 +193,7 @@ fn act_kim(args: &KimArgs, cancel: &CancelToken) -> Result<(), Stopped> {
     let rows = rows?;
     let title = "Waypoints by L-BFGS";
     args.output
-        .put(title, &rows, || kim::figures(&published, &rows))
+        .put(title, &rows, || kim::figures(&published, &rows), cancel)
 }
 
 fn act_faustino(args: &FaustinoArgs, cancel: &CancelToken) -> Result<(), Stopped> {
@@ -205,7 +208,7 @@ fn act_faustino(args: &FaustinoArgs, cancel: &CancelToken) -> Result<(), Stopped
     });
     bar.finish_and_clear();
     args.output
-        .put("Swarms of waypoints", &rows?, faustino::figures)
+        .put("Swarms of waypoints", &rows?, faustino::figures, cancel)
 }
 
 fn act_cabc(args: &CabcArgs, cancel: &CancelToken) -> Result<(), Stopped> {
@@ -221,10 +224,11 @@ fn act_cabc(args: &CabcArgs, cancel: &CancelToken) -> Result<(), Stopped> {
     });
     bar.finish_and_clear();
     let title = "Bees that walk an unknown map";
-    args.output.put(title, &rows?, cabc::figures)
+    args.output.put(title, &rows?, cabc::figures, cancel)
 }
 
 fn act_wang(args: &WangArgs, cancel: &CancelToken) -> Result<(), Stopped> {
+    among(args.only.as_deref(), "problem", &wang::names()?)?;
     let options = wang::Options {
         runs: args.runs,
         only: args.only.clone(),
@@ -238,7 +242,22 @@ fn act_wang(args: &WangArgs, cancel: &CancelToken) -> Result<(), Stopped> {
     bar.finish_and_clear();
     let rows = rows?;
     let title = "Fronts and teams";
-    args.output.put(title, &rows, || wang::figures(&rows))
+    args.output
+        .put(title, &rows, || wang::figures(&rows), cancel)
+}
+
+/// Refuses a part that is in no name: who asks for nothing has mistaken something.
+fn among(only: Option<&str>, what: &str, names: &[&str]) -> Result<(), Failure> {
+    let Some(only) = only.filter(|only| !names.iter().any(|name| name.contains(only))) else {
+        return Ok(());
+    };
+    let failure = Failure::usage(format!("--only: no {what}'s name contains `{only}`"));
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    let known = format!("the {what}s are {}", quoted.join(", "));
+    Err(failure.help(match nearest(only, names.iter().copied()) {
+        Some(near) => format!("did you mean `{near}`? {known}"),
+        None => known,
+    }))
 }
 
 /// Makes the folder of a report: that it cannot be made is known before minutes of work.
@@ -248,13 +267,23 @@ fn make(report: Option<&Path>) -> Result<(), Failure> {
     })
 }
 
+/// Nothing is run any more, only drawn and written.
+fn drawn(cancel: &CancelToken) -> Result<(), PaperError> {
+    if at_once(cancel) {
+        return Err(PaperError::Interrupted);
+    }
+    Ok(())
+}
+
 impl Output {
     fn put(
         &self,
         title: &str,
         rows: &[Row],
         figures: impl FnOnce() -> Result<Vec<Figure>, PaperError>,
+        cancel: &CancelToken,
     ) -> Result<(), Stopped> {
+        drawn(cancel)?;
         if let Some(folder) = &self.report {
             write_report(folder, title, rows, &figures()?)?;
         }
@@ -270,16 +299,7 @@ impl Output {
 
 fn act_redlarski(args: &RedlarskiArgs, cancel: &CancelToken) -> Result<(), Stopped> {
     let stories = redlarski::stories()?;
-    let known = |only: &String| {
-        stories
-            .iter()
-            .any(|story| story.map.contains(only.as_str()))
-    };
-    if let Some(only) = args.only.as_ref().filter(|only| !known(only)) {
-        let maps = redlarski::MAPS.join(", ");
-        let failure = Failure::usage(format!("--only: no map's name contains `{only}`"));
-        return Err(failure.help(format!("the maps are {maps}")).into());
-    }
+    among(args.only.as_deref(), "map", redlarski::MAPS)?;
     let options = redlarski::Options {
         runs: args.runs,
         threads: args.threads.get(),
@@ -294,6 +314,7 @@ fn act_redlarski(args: &RedlarskiArgs, cancel: &CancelToken) -> Result<(), Stopp
     });
     bar.finish_and_clear();
     let rows = rows?;
+    drawn(cancel)?;
     if let Some(folder) = &args.report {
         redlarski::write_report(folder, &stories, &rows)?;
     }

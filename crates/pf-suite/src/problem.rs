@@ -6,12 +6,13 @@ use crate::digest::Digest;
 use pf_geom::{TeamProblem, Timing, World, WorldProblem};
 use pf_grid::{Grid, GridProblem};
 use pf_io::{
-    AnyScenario, FileError, FileKind, LoadOptions, Scen, Unknown, WorldFile, kind_of, load_grid,
-    load_scenario, read_scen, read_world,
+    AnyScenario, FileError, FileKind, GridMap, LoadOptions, Scen, Unknown, WorldFile, kind_of,
+    load_grid, load_scenario, read_scen, read_world,
     toml_tree::{Table, Value},
 };
 use pf_planners::{Ruler, Scene};
-use said::{Said, nonsense};
+use said::{Form, Said, nonsense};
+pub(crate) use said::{KEYS, some};
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -50,28 +51,11 @@ impl SuiteProblem {
     }
 }
 
-pub(crate) const KEYS: [&str; 14] = [
-    "name",
-    "file",
-    "team",
-    "scen",
-    "rows",
-    "case",
-    "from",
-    "to",
-    "radius",
-    "clearance",
-    "cell",
-    "moves",
-    "unknown",
-    "ease",
-];
-
 /// Reads problems; each map is read once.
 pub(crate) struct Reader {
     /// Where the suite lies.
     folder: PathBuf,
-    grids: Vec<(PathBuf, Unknown, Map<Arc<Grid>>)>,
+    grids: Vec<(PathBuf, Unknown, Map<GridMap>)>,
     worlds: Vec<(PathBuf, Map<WorldFile>)>,
 }
 
@@ -101,9 +85,6 @@ impl Reader {
         let file = table.needed("file", "a map, a world or a scenario; or \"team\"")?;
         let path = self.folder.join(file.string()?);
         let base = base_name(table, &path)?;
-        if let Some(ease) = table.get("ease") {
-            return Err(ease.error("no \"ease\": that is for problems of a \"team\""));
-        }
         // Whatever is wrong inside a file is said of that file; that it cannot be had, of the suite.
         let kind = kind_of(&path).map_err(|error| unreadable(&file, error))?;
         let mut problems = match kind {
@@ -111,9 +92,6 @@ impl Reader {
             FileKind::World => self.in_world(&said, &path, &base)?,
             FileKind::GridScenario | FileKind::WorldScenario => cases(&said, &path, &base)?,
         };
-        if let Some((name, value)) = said.cases.first().filter(|_| problems.is_empty()) {
-            return Err(value.error(format!("the name of a case: there is none called {name}")));
-        }
         if problems.is_empty() {
             return Err(file.error("a file that asks something: give \"from\" and \"to\""));
         }
@@ -124,7 +102,7 @@ impl Reader {
         Ok(problems)
     }
 
-    fn grid(&mut self, path: &Path, unknown: Unknown) -> Result<Map<Arc<Grid>>, FileError> {
+    fn grid(&mut self, path: &Path, unknown: Unknown) -> Result<Map<GridMap>, FileError> {
         let known = |(file, sort, _): &&(PathBuf, Unknown, _)| file == path && *sort == unknown;
         if let Some((_, _, map)) = self.grids.iter().find(known) {
             return Ok(map.clone());
@@ -133,7 +111,12 @@ impl Reader {
             unknown,
             ..LoadOptions::default()
         };
-        let map = Map::of_grid(load_grid(path, &options)?.grid);
+        let content = load_grid(path, &options)?;
+        let map = Map {
+            digest: of_grid(&content.grid),
+            ruler: Arc::default(),
+            content,
+        };
         self.grids.push((path.to_owned(), unknown, map.clone()));
         Ok(map)
     }
@@ -160,10 +143,20 @@ impl Reader {
         base: &str,
     ) -> Result<Vec<SuiteProblem>, FileError> {
         let table = said.table;
-        let map = self.grid(path, said.unknown.unwrap_or_default())?;
-        let size = (map.content.width(), map.content.height());
+        let scen = table.get("scen");
+        if scen.is_none() && table.get("rows").is_some() {
+            return Err(table.key_error("rows", "\"scen\" beside it: the file whose rows they are"));
+        }
+        said.is(scen.map_or(&Form::GRID, |_| &Form::ROWS))?;
+        let map = self.grid(path, said.unknown())?;
+        // Only a ROS map says how it lies in the world, and only such a map has unknown cells.
+        if map.content.frame.is_none() && table.get("unknown").is_some() {
+            return Err(table.key_error("unknown", "none: only a ROS map has unknown cells"));
+        }
+        let grid = &map.content.grid;
+        let size = (grid.width(), grid.height());
         let ask = |name: String, from, to| {
-            let problem = GridProblem::new(Arc::clone(&map.content), from, to);
+            let problem = GridProblem::new(Arc::clone(grid), from, to);
             let problem = problem.map_err(|error| nonsense(table, &error))?;
             let ask = said.grid(&problem, 0.0)?;
             Ok(SuiteProblem {
@@ -173,10 +166,7 @@ impl Reader {
                 digest: map.digest,
             })
         };
-        if let Some((_, value)) = said.cases.first() {
-            return Err(value.error("no \"case\": the file is a map, not a scenario"));
-        }
-        let Some(scen) = table.get("scen") else {
+        let Some(scen) = scen else {
             let hint = format!("a cell [x, y] of {} x {}, or \"scen\"", size.0, size.1);
             let from = table.needed("from", &hint)?.cell(size)?;
             let to = table.needed("to", &hint)?.cell(size)?;
@@ -184,7 +174,7 @@ impl Reader {
         };
         let rows = read_scen(&self.folder.join(scen.string()?));
         let rows = rows.map_err(|error| unreadable(&scen, error))?;
-        rows.check_size(&map.content)?;
+        rows.check_size(grid)?;
         let chosen = chosen_rows(table, &rows)?;
         chosen
             .into_iter()
@@ -218,6 +208,7 @@ impl Reader {
         let robots = &map.content.robots;
         let ends = (table.get("from"), table.get("to"));
         if ends.0.is_some() || ends.1.is_some() {
+            said.is(&Form::WORLD)?;
             let from = table.needed("from", "a point [x, y]")?.point("a start")?;
             let to = table.needed("to", "a point [x, y]")?.point("a goal")?;
             let radius = match &robots[..] {
@@ -226,6 +217,10 @@ impl Reader {
             };
             return Ok(vec![ask(base.to_owned(), radius, from, to)?]);
         }
+        if robots.is_empty() {
+            table.needed("from", "a point [x, y], as the world has no robots")?;
+        }
+        said.is(&Form::ROBOTS)?;
         let names = (1..).zip(robots).map(|(k, robot)| {
             let name = robot.name.clone();
             name.unwrap_or_else(|| format!("robot {k}"))
@@ -244,14 +239,7 @@ impl Reader {
     /// All robots of a world at once.
     fn team(&mut self, said: &Said<'_>, file: &Value<'_>) -> Result<Vec<SuiteProblem>, FileError> {
         let table = said.table;
-        for key in KEYS {
-            let other = table
-                .get(key)
-                .filter(|_| !matches!(key, "name" | "team" | "ease"));
-            if let Some(value) = other {
-                return Err(value.error(format!("no \"{key}\": a \"team\" has it in its file")));
-            }
-        }
+        said.is(&Form::TEAM)?;
         let path = self.folder.join(file.string()?);
         let map = self.world(&path).map_err(|error| unreadable(file, error))?;
         if map.content.robots.is_empty() {
@@ -280,16 +268,6 @@ impl Reader {
             ask,
             ruler: map.ruler,
         }])
-    }
-}
-
-impl Map<Arc<Grid>> {
-    fn of_grid(grid: Arc<Grid>) -> Self {
-        Self {
-            digest: of_grid(&grid),
-            ruler: Arc::default(),
-            content: grid,
-        }
     }
 }
 
@@ -327,9 +305,6 @@ fn digest(ask: &Ask, map: u64) -> u64 {
 
 /// A question per case of a scenario; what happens later does not happen here.
 fn cases(said: &Said<'_>, path: &Path, base: &str) -> Result<Vec<SuiteProblem>, FileError> {
-    for key in ["scen", "rows", "from", "to", "unknown"] {
-        said.refuse(key, "a scenario says it itself")?;
-    }
     let ask = |names: &[String], k: usize, digest, scene| SuiteProblem {
         name: called(base, names, k),
         ask: Ask::Scene(scene),
@@ -338,6 +313,7 @@ fn cases(said: &Said<'_>, path: &Path, base: &str) -> Result<Vec<SuiteProblem>, 
     };
     match load_scenario(path)? {
         AnyScenario::Grid(scenario) => {
+            said.is(&Form::GRID_CASES)?;
             let names: Vec<_> = scenario
                 .cases
                 .iter()
@@ -351,6 +327,7 @@ fn cases(said: &Said<'_>, path: &Path, base: &str) -> Result<Vec<SuiteProblem>, 
             said.chosen(&names)?.into_iter().map(one).collect()
         }
         AnyScenario::World(scenario) => {
+            said.is(&Form::WORLD_CASES)?;
             let names: Vec<_> = scenario
                 .cases
                 .iter()
@@ -379,8 +356,9 @@ fn chosen_rows(table: &Table<'_>, scen: &Scen) -> Result<Vec<usize>, FileError> 
         }
         return Ok((0..wanted).map(|k| k * all / wanted).collect());
     }
-    let lines = value.array("lines of the .scen file")?;
+    let lines = some(&value, "lines of the .scen file")?;
     lines
+        .into_iter()
         .map(|value| {
             let line = value.count("a line of the .scen file")?;
             let found = scen.rows.iter().position(|row| row.line == line);

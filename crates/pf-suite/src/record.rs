@@ -41,7 +41,7 @@ pub struct Record {
     /// For a team the objectives of all plans: length, danger, turning.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub front: Vec<[f64; 3]>,
-    /// Of all that the result depends on.
+    /// Of all that the result depends on, and the number of repetitions, on which its times depend.
     pub fingerprint: String,
 }
 

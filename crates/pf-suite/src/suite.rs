@@ -90,7 +90,7 @@ pub struct Job {
     pub contender: usize,
     /// The seed.
     pub seed: u64,
-    /// Of all that its result depends on, the program's version included.
+    /// Of all that its result and its times depend on, the program's version included.
     pub fingerprint: u64,
 }
 
@@ -116,7 +116,7 @@ impl Suite {
                 if !contender.takes_part(problem) {
                     continue;
                 }
-                let fingerprint = contender.digest(problem, self.convergence);
+                let fingerprint = contender.digest(problem, self);
                 here.extend(contender.seeds.iter().map(|&seed| Job {
                     problem: p,
                     contender: c,
@@ -143,11 +143,12 @@ impl Contender {
         self.only.is_empty() || self.only.iter().any(begins)
     }
 
-    fn digest(&self, problem: &SuiteProblem, convergence: bool) -> Digest {
+    fn digest(&self, problem: &SuiteProblem, suite: &Suite) -> Digest {
         Digest::default()
             .debug(&env!("CARGO_PKG_VERSION"))
             .number(problem.digest)
-            .debug(&(&self.planner, &self.settings, self.limits, convergence))
+            .debug(&(&self.planner, &self.settings, self.limits))
+            .debug(&(suite.convergence, suite.repetitions))
     }
 }
 
@@ -251,6 +252,9 @@ fn planner(
     })?;
     let only = only(table, problems)?;
     let given = table.string("variant")?;
+    if let (Some(""), Some(value)) = (given, table.get("variant")) {
+        return Err(value.error("a name, not an empty string"));
+    }
     let limits = limits(table)?.unwrap_or(top);
     let mut choices = vec![(Vec::new(), Vec::new())];
     let set = table.get("set").map(|value| value.table()).transpose()?;
@@ -348,7 +352,7 @@ fn only(table: &Table<'_>, problems: &[SuiteProblem]) -> Result<Vec<String>, Fil
         return Ok(Vec::new());
     };
     let mut only = Vec::new();
-    for value in value.array("the beginnings of problems' names")? {
+    for value in problem::some(&value, "the beginnings of problems' names")? {
         let begins = value.string()?;
         if !problems
             .iter()

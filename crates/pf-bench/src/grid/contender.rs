@@ -1,7 +1,10 @@
 //! Who answers a query, and under which moves.
 
 use super::peers::{Jumping, Pathfinding, Petgraph};
-use crate::contenders::{FRESH, entry};
+use crate::{
+    cases::unknown,
+    contenders::{FRESH, entry},
+};
 use anyhow::{Result, bail};
 use pf_core::{Context, Outcome, Replanner, Report};
 use pf_grid::{Grid, GridCost, GridProblem, Moves};
@@ -73,7 +76,8 @@ impl Asked {
         let names: Vec<&str> = names().collect();
         for asked in &self.planner {
             if !names.iter().any(|name| name.contains(asked.as_str())) {
-                bail!("--planner {asked}: the contenders are {}", names.join(", "));
+                let names = names.iter().copied();
+                bail!("{}", unknown("--planner", asked, "contender", names));
             }
         }
         Ok(())

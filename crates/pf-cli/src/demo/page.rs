@@ -23,10 +23,11 @@ impl Page {
         let mut page = Self::default();
         page.raw(&format!(
             "<h1>Small 2D path planners</h1>\n<p>Made by <code>pf demo</code>, version {}, seed 0. \
-             Times are those of this run; planners that never know that they are done had {} ms each. \
+             Times are those of this run; planners that never know that they are done had {} ms each. {} \
              Drag a slider, or play: every animation is drawn from what the planner itself told.</p>\n",
             env!("CARGO_PKG_VERSION"),
             super::PATIENCE.as_millis(),
+            super::TIMES,
         ));
         page
     }

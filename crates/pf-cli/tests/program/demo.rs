@@ -19,6 +19,7 @@ fn it_compares_all_planners_draws_and_writes_a_report() {
         "three robots",
         "% over shortest",
         "5000 evaluations",
+        "that they prepare are in their times",
         &out,
     ] {
         assert!(run.out.contains(words), "no {words:?} in {}", run.out);
@@ -35,6 +36,7 @@ fn it_compares_all_planners_draws_and_writes_a_report() {
     let page = fs::read_to_string(folder.path("pictures/report.html")).unwrap();
     assert!(page.len() <= 3_000_000, "{} bytes", page.len());
     needs_nothing(&page);
+    assert!(page.contains("that they prepare are in their times"));
     // Every planner on both maps, a plan of the team, and two scenarios with a before and an after.
     assert_eq!(
         page.matches("<figure class=\"film\"").count(),

@@ -122,6 +122,33 @@ fn ctrl_c_at_any_moment_leaves_whole_files_or_none() {
 }
 
 #[test]
+fn the_first_ctrl_c_ends_what_only_draws_and_writes() {
+    let folder = whole::folder();
+    let bench = folder.command("bench @in/suite.toml -o @in/runs").output();
+    Run::from(bench.expect("the program starts")).ends(0);
+    for words in [
+        "bench report @in/runs -o @out",
+        "paper redlarski --only mosaic-20 --runs 1 --report @out",
+    ] {
+        let mut pf = folder.command(words);
+        let pf = pf.stdout(Stdio::piped()).stderr(Stdio::piped());
+        let child = pf.spawn().expect("the program starts");
+        let begun =
+            || fs::read_dir(folder.path("out")).is_ok_and(|mut files| files.next().is_some());
+        while !begun() {
+            thread::yield_now();
+        }
+        press_ctrl_c(&child);
+        let run = Run::from(child.wait_with_output().expect("its end")).ends(130);
+        assert_eq!(run.out, "", "{words}");
+        assert!(!folder.path("out/report.html").exists(), "{words} went on");
+        folder.is_whole(words);
+        fs::remove_dir_all(folder.path("out")).expect("a folder");
+        fs::create_dir(folder.path("out")).expect("a folder");
+    }
+}
+
+#[test]
 fn what_is_interrupted_again_and_again_comes_to_the_same_in_the_end() {
     let folder = whole::folder();
     let last = |words: &str| {

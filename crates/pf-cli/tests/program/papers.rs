@@ -68,7 +68,31 @@ fn a_row_per_planner_and_table_with_the_papers_numbers_beside_ours() {
 }
 
 #[test]
-fn a_map_there_is_none_of_is_refused_by_name() {
-    let run = pf(&["paper", "redlarski", "--only", "swamp"]).ends(2);
-    assert!(run.err.contains("`swamp`") && run.err.contains("maze-100"));
+fn what_there_is_none_of_is_refused_by_name_with_what_there_is() {
+    let folder = Folder::with(&[]);
+    let report = folder.name("report");
+    for (words, says) in [
+        (
+            "redlarski --only swamp",
+            &["no map's name contains `swamp`", "maze-100"][..],
+        ),
+        (
+            "redlarski --only maze-10O",
+            &["did you mean `maze-100`?", "mosaic-20"],
+        ),
+        (
+            "wang --only NONSENSE",
+            &["no problem's name contains `NONSENSE`", "three-discs"],
+        ),
+        (
+            "wang --only thre-discs",
+            &["did you mean `three-discs`?", "concave"],
+        ),
+    ] {
+        let words: Vec<&str> = words.split(' ').collect();
+        pf(&[&["paper"], &words[..], &["--report", &report]].concat())
+            .ends(2)
+            .says(says);
+        assert!(!folder.path("report").exists(), "{words:?} left a folder");
+    }
 }

@@ -70,6 +70,17 @@ fn cases() -> Result<Vec<Case>, PaperError> {
     Ok(cases)
 }
 
+/// The names of all problems.
+///
+/// # Errors
+/// [`PaperError`] never, but for a fault of its own.
+pub fn names() -> Result<Vec<&'static str>, PaperError> {
+    let mut names: Vec<_> = cases()?.iter().map(|case| case.trial.name).collect();
+    // A problem with several numbers of evaluations stands in a row.
+    names.dedup();
+    Ok(names)
+}
+
 /// Runs everything.
 ///
 /// # Errors

@@ -9,6 +9,77 @@ use pf_io::{
 };
 use pf_planners::{GridScene, Robot, Scene, WorldScene};
 
+/// All keys of a `[[problem]]`.
+pub(crate) const KEYS: [&str; 14] = [
+    "name",
+    "file",
+    "team",
+    "scen",
+    "rows",
+    "case",
+    "from",
+    "to",
+    "radius",
+    "clearance",
+    "cell",
+    "moves",
+    "unknown",
+    "ease",
+];
+
+/// What a `[[problem]]` may ask, and the keys that have a meaning there besides its name.
+pub(super) struct Form {
+    what: &'static str,
+    keys: &'static [&'static str],
+}
+
+impl Form {
+    pub(super) const TEAM: Self = Self {
+        what: "a team",
+        keys: &["team", "ease"],
+    };
+    pub(super) const GRID: Self = Self {
+        what: "a path on a grid",
+        keys: &[
+            "file",
+            "from",
+            "to",
+            "radius",
+            "clearance",
+            "moves",
+            "unknown",
+        ],
+    };
+    pub(super) const ROWS: Self = Self {
+        what: "rows of a .scen file",
+        keys: &[
+            "file",
+            "scen",
+            "rows",
+            "radius",
+            "clearance",
+            "moves",
+            "unknown",
+        ],
+    };
+    pub(super) const WORLD: Self = Self {
+        what: "a path in a world",
+        keys: &["file", "from", "to", "radius", "clearance", "cell", "moves"],
+    };
+    pub(super) const ROBOTS: Self = Self {
+        what: "the robots of a world",
+        keys: &["file", "case", "radius", "clearance", "cell", "moves"],
+    };
+    pub(super) const GRID_CASES: Self = Self {
+        what: "a scenario on grids",
+        keys: &["file", "case", "radius", "clearance", "moves"],
+    };
+    pub(super) const WORLD_CASES: Self = Self {
+        what: "a scenario in worlds",
+        keys: &["file", "case", "radius", "clearance", "cell", "moves"],
+    };
+}
+
 /// What a table says besides the file.
 pub(super) struct Said<'t> {
     pub(super) table: &'t Table<'t>,
@@ -16,7 +87,7 @@ pub(super) struct Said<'t> {
     clearance: f64,
     cell: Option<f64>,
     moves: Option<Moves>,
-    pub(super) unknown: Option<Unknown>,
+    unknown: Option<Unknown>,
     /// The names of cases to take; all if empty.
     pub(super) cases: Vec<(String, Value<'t>)>,
 }
@@ -29,8 +100,8 @@ impl<'t> Said<'t> {
         let cases = match table.get("case") {
             None => Vec::new(),
             Some(value) if value.is_array() => {
-                let names = value.array("names of cases")?;
                 let case = |value: Value<'t>| Ok((value.string()?.to_owned(), value));
+                let names = some(&value, "names of cases")?.into_iter();
                 names.map(case).collect::<Result<_, FileError>>()?
             }
             Some(value) => vec![(value.string()?.to_owned(), value)],
@@ -46,6 +117,11 @@ impl<'t> Said<'t> {
         })
     }
 
+    /// What unknown cells of a grid count as.
+    pub(super) fn unknown(&self) -> Unknown {
+        self.unknown.unwrap_or_default()
+    }
+
     fn robot(&self, radius: f64) -> Robot {
         Robot {
             radius: self.radius.unwrap_or(radius),
@@ -53,15 +129,19 @@ impl<'t> Said<'t> {
         }
     }
 
-    pub(super) fn refuse(&self, key: &str, why: &str) -> Result<(), FileError> {
-        let value = self.table.get(key);
-        value.map_or(Ok(()), |value| {
-            Err(value.error(format!("no \"{key}\": {why}")))
-        })
+    /// Refuses a key that has no meaning in a table of this form.
+    pub(super) fn is(&self, form: &Form) -> Result<(), FileError> {
+        let keys = || ["name"].iter().chain(form.keys);
+        let strange = |key: &&str| self.table.get(key).is_some() && !keys().any(|k| k == key);
+        let Some(key) = KEYS.iter().find(|key| strange(key)) else {
+            return Ok(());
+        };
+        let keys: Vec<&str> = keys().copied().collect();
+        let expected = format!("for {} one of {}", form.what, keys.join(", "));
+        Err(self.table.key_error(key, expected))
     }
 
     pub(super) fn grid(&self, problem: &GridProblem, radius: f64) -> Result<Scene, FileError> {
-        self.refuse("cell", "a grid has cells")?;
         let scene = GridScene::of(problem.clone())
             .with_moves(self.moves.unwrap_or(problem.moves()))
             .with_robot(self.robot(radius));
@@ -69,9 +149,6 @@ impl<'t> Said<'t> {
     }
 
     pub(super) fn world(&self, problem: &WorldProblem) -> Result<Scene, FileError> {
-        for key in ["scen", "rows", "unknown"] {
-            self.refuse(key, "the file is a world of shapes")?;
-        }
         let make = || {
             let robot = self.robot(problem.radius());
             let ends = (problem.start(), problem.goal());
@@ -108,6 +185,15 @@ impl<'t> Said<'t> {
 
 pub(super) fn nonsense(table: &Table<'_>, error: &InvalidProblem) -> FileError {
     table.error(error.to_string(), "a question that makes sense")
+}
+
+/// The members of an array that has some: none would read as all.
+pub(crate) fn some<'v>(value: &Value<'v>, of: &str) -> Result<Vec<Value<'v>>, FileError> {
+    let members: Vec<_> = value.array(of)?.collect();
+    if members.is_empty() {
+        return Err(value.error(format!("an array of {of}: one at least")));
+    }
+    Ok(members)
 }
 
 /// The first few names.
