@@ -68,8 +68,15 @@ pub(crate) struct Hive {
     workers: Workers,
 }
 
-/// So many numbers are worth waking a thread for: it takes some 10 us, and they 40 and more.
-const WORTH_A_THREAD: usize = 2000;
+/// So many nanoseconds of work are worth waking a thread for, which takes 10,000 and more.
+const WORTH_A_THREAD: usize = 60_000;
+
+/// About how many nanoseconds of an evaluation there are for each number of a row: measured with 1, 3
+/// and 5 robots among 3, 4 and 20 discs.
+fn nanoseconds(problem: &TeamProblem) -> usize {
+    let others = problem.robots().len() + problem.world().shapes().take(50).count();
+    25 + 2 * others
+}
 
 /// Some rows and their marks.
 type Share<'a> = (&'a mut [f64], &'a mut [Mark]);
@@ -118,7 +125,8 @@ impl Hive {
         self.brood.width = width;
         self.brood.genes.resize((first + count) * width, 0.0);
         self.brood.marks.resize(first + count, Mark::default());
-        let threads = common.threads.min(count * width / WORTH_A_THREAD).max(1);
+        let worth = count * width * nanoseconds(problem) / WORTH_A_THREAD;
+        let threads = common.threads.min(worth).max(1);
         self.scratch
             .resize_with(threads.max(self.scratch.len()), Scratch::default);
         let share = count.div_ceil(threads).max(1);
