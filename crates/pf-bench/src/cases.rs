@@ -4,7 +4,7 @@ use anyhow::{Context as _, Result, bail};
 use pf_classic::AStar;
 use pf_core::{Context, PlanRng, Planner};
 use pf_grid::{Cell, Grid, GridProblem, Moves};
-use pf_io::{LoadOptions, Scen, ScenRow, load_grid, read_scen, toml_tree::nearest};
+use pf_io::{LoadOptions, Scen, ScenRow, load_grid, read_scen, toml_tree::there_are};
 use rand::{RngExt, SeedableRng};
 use std::{
     borrow::Cow,
@@ -90,14 +90,8 @@ pub(crate) fn unknown<'n>(
     names: impl Iterator<Item = &'n str>,
 ) -> String {
     let names: Vec<&str> = names.collect();
-    let near = nearest(asked, names.iter().copied());
-    let near = near.map(|near| format!("did you mean `{near}`? "));
-    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-    format!(
-        "{option}: no {what}'s name contains `{asked}`; {}the {what}s are {}",
-        near.unwrap_or_default(),
-        quoted.join(", ")
-    )
+    let there_are = there_are(asked, what, &names);
+    format!("{option}: no {what}'s name contains `{asked}`; {there_are}")
 }
 
 impl Case {

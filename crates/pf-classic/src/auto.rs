@@ -176,10 +176,9 @@ impl Replanner<GridProblem> for Auto {
                 self.surveyed = Some(grid.stamp());
             }
         }
+        self.known = Some(problem.stamp());
         self.jps.follow(revision);
         if let Some(report) = self.last.answer(revision, cx) {
-            self.known = Some(problem.stamp());
-            self.last.remember(problem, &report);
             return Ok(report);
         }
         cx.note("replanned", "afresh");

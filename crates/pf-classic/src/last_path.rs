@@ -23,9 +23,9 @@ impl LastPath {
     }
 
     /// Answers with what is left of it, if nothing but the start and blocked cells changed, the start is
-    /// on it, and the judge lets it pass.
+    /// on it, and the judge lets it pass; else it is forgotten.
     pub(crate) fn answer(
-        &self,
+        &mut self,
         revision: &Revision<'_, GridProblem>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Report<GridProblem>> {
@@ -33,18 +33,19 @@ impl LastPath {
         let harmless = |change: &GridChange| {
             matches!(change, GridChange::StartMoved(_) | GridChange::Blocked(_))
         };
-        if !revision.since(self.known)?.iter().all(harmless) {
+        if !revision.since(self.known.take())?.iter().all(harmless) {
             return None;
         }
         let gone = self.path.iter().position(|&cell| cell == problem.start())?;
-        let left = self.path[gone..].to_vec();
+        self.path.drain(..gone);
         // Judged here, so that a path that is blocked by now is no attempt.
-        let cost = problem.judge(&left).ok()?;
+        let cost = problem.judge(&self.path).ok()?;
         if !cx.proceed() {
             return None;
         }
+        self.known = Some(problem.stamp());
         let best = Solved {
-            solution: left,
+            solution: self.path.clone(),
             cost,
         };
         cx.note("replanned", "kept");

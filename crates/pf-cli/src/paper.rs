@@ -6,7 +6,7 @@ use crate::{
 };
 use indicatif::{ProgressBar, ProgressStyle};
 use pf_core::CancelToken;
-use pf_io::{make_folder, toml_tree::nearest};
+use pf_io::{make_folder, toml_tree::there_are};
 use pf_papers::{
     PaperError, cabc, faustino, kim,
     page::{Figure, write_report},
@@ -252,12 +252,7 @@ fn among(only: Option<&str>, what: &str, names: &[&str]) -> Result<(), Failure> 
         return Ok(());
     };
     let failure = Failure::usage(format!("--only: no {what}'s name contains `{only}`"));
-    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
-    let known = format!("the {what}s are {}", quoted.join(", "));
-    Err(failure.help(match nearest(only, names.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`? {known}"),
-        None => known,
-    }))
+    Err(failure.help(there_are(only, what, names)))
 }
 
 /// Makes the folder of a report: that it cannot be made is known before minutes of work.

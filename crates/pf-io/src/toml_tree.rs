@@ -477,3 +477,19 @@ pub fn nearest<'k>(word: &str, known: impl Iterator<Item = &'k str>) -> Option<&
     let (distance, nearest) = by_distance.min()?;
     (distance <= 2).then_some(nearest)
 }
+
+/// The end of an error about a `word` that is none of the names there are: the one that was probably meant,
+/// and all of them.
+///
+/// ```
+/// # use pf_io::toml_tree::there_are;
+/// assert_eq!(there_are("yrad", "map", &["yard", "hall"]), "did you mean `yard`? the maps are `yard`, `hall`");
+/// assert_eq!(there_are("office", "map", &["yard"]), "the maps are `yard`");
+/// ```
+#[must_use]
+pub fn there_are(word: &str, what: &str, names: &[&str]) -> String {
+    let near = nearest(word, names.iter().copied());
+    let near = near.map_or(String::new(), |near| format!("did you mean `{near}`? "));
+    let quoted: Vec<_> = names.iter().map(|name| format!("`{name}`")).collect();
+    format!("{near}the {what}s are {}", quoted.join(", "))
+}

@@ -177,12 +177,8 @@ impl Loss for Hinge {
         let mut more = false;
         for lack in &mut self.lacks {
             let Touch { at, out, .. } = lack.touch;
-            // The ends of the path take no step.
             let ends = [(0, 1.0 - at), (1, at)].map(|(end, share)| {
-                let place = (2 * (lack.segment + end)).checked_sub(2);
-                place
-                    .filter(|&place| place < step.len())
-                    .map(|place| (place, share))
+                inner(lack.segment + end, step.len() / 2).map(|place| (place, share))
             });
             if !lack.counts {
                 let away = |(k, share)| share * (out[0] * step[k] + out[1] * step[k + 1]);
@@ -201,6 +197,12 @@ impl Loss for Hinge {
     }
 }
 
+/// Where a point of a path has its numbers among those of so many inner points; the path's ends are none
+/// of them.
+fn inner(point: usize, points: usize) -> Option<usize> {
+    (1..=points).contains(&point).then(|| 2 * (point - 1))
+}
+
 /// Adds xx, xy, yy at a place of a segment, shared out to its ends, to the rows of inner points.
 pub(crate) fn add_outer(
     matrix: &mut Banded,
@@ -209,9 +211,7 @@ pub(crate) fn add_outer(
     at: f64,
     [xx, xy, yy]: [f64; 3],
 ) {
-    let inner = |end: usize| {
-        (segment + end >= 1 && segment + end <= points).then(|| 2 * (segment + end - 1))
-    };
+    let inner = |end: usize| inner(segment + end, points);
     let shares = [1.0 - at, at];
     for (end, share) in shares.iter().enumerate() {
         let Some(row) = inner(end) else { continue };

@@ -3,7 +3,7 @@
 mod lanes;
 
 use crate::{class::corners, quadratic};
-use lanes::{Packed, Samples};
+use lanes::{Packed, SHARES, Samples};
 use pf_core::PlanRng;
 use pf_geom::Rectangle;
 use wide::f64x4;
@@ -196,7 +196,7 @@ impl Potential {
         gradient: &mut [f64],
         mut kick: Option<&mut PlanRng>,
     ) -> f64 {
-        let thirds = f64x4::new([0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0]);
+        let thirds = f64x4::new(SHARES);
         let sevenths = [
             f64x4::new([0.0, 1.0 / 7.0, 2.0 / 7.0, 3.0 / 7.0]),
             f64x4::new([4.0 / 7.0, 5.0 / 7.0, 6.0 / 7.0, 1.0]),

@@ -78,6 +78,19 @@ impl Jps {
         self.known = Some(problem.stamp());
     }
 
+    /// Follows changes with its bits.
+    pub(crate) fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
+        let problem = revision.problem();
+        if let Some(changes) = revision.since(self.known) {
+            let cells = changes.iter().flat_map(|change| match change {
+                GridChange::Blocked(cells) | GridChange::Freed(cells) => &cells[..],
+                _ => &[],
+            });
+            self.map.follow(problem.grid(), cells.copied());
+            self.known = Some(problem.stamp());
+        }
+    }
+
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -126,21 +139,6 @@ fn report(
         Found::Path(path) => cx.answer(problem, path, Proof::Optimal),
         Found::Nothing => cx.report(Outcome::Infeasible),
         Found::Cut => cx.report(Outcome::Unknown { attempt: None }),
-    }
-}
-
-impl Jps {
-    /// Follows changes with its bits.
-    pub(crate) fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
-        let problem = revision.problem();
-        if let Some(changes) = revision.since(self.known) {
-            let cells = changes.iter().flat_map(|change| match change {
-                GridChange::Blocked(cells) | GridChange::Freed(cells) => &cells[..],
-                _ => &[],
-            });
-            self.map.follow(problem.grid(), cells.copied());
-            self.known = Some(problem.stamp());
-        }
     }
 }
 

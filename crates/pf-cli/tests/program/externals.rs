@@ -1,6 +1,6 @@
 //! Planners in other programs. Skipped visibly where there is no Python.
 
-use crate::{Folder, map, pf};
+use crate::{Folder, Run, map, pf};
 
 const MAP: &str = "....# .##.. .#... ...#.";
 
@@ -27,6 +27,21 @@ fn folder_with(reply: &str) -> (Folder, String) {
     (folder, planner)
 }
 
+/// Asks a planner for the way from one corner of `MAP` to the other.
+fn across(file: &str, planner: &str, more: &[&str]) -> Run {
+    let args = [
+        "plan",
+        file,
+        "--from",
+        "0,0",
+        "--to",
+        "4,3",
+        "--planner",
+        planner,
+    ];
+    pf(&[&args, more].concat())
+}
+
 #[test]
 fn a_planner_in_python_takes_part() {
     if !python() {
@@ -34,24 +49,11 @@ fn a_planner_in_python_takes_part() {
     }
     let folder = map(MAP);
     let file = folder.name("m.map");
-    let ask = |planner: &str, more: &[&str]| {
-        let args = [
-            "plan",
-            &file,
-            "--from",
-            "0,0",
-            "--to",
-            "4,3",
-            "--planner",
-            planner,
-            "--json",
-        ];
-        pf(&[&args, more].concat())
-    };
+    let ask = |planner: &str, moves: &str| across(&file, planner, &["--json", "--moves", moves]);
     let example = "external:python3 examples/external/planner.py";
     for moves in ["orthogonal", "always", "one-corner", "no-corner-cutting"] {
-        let ours = ask("astar", &["--moves", moves]).ends(0).json().remove(0);
-        let theirs = ask(example, &["--moves", moves]).ends(0).json().remove(0);
+        let ours = ask("astar", moves).ends(0).json().remove(0);
+        let theirs = ask(example, moves).ends(0).json().remove(0);
         assert_eq!(theirs["planner"], example);
         assert_eq!(
             (&theirs["outcome"], &theirs["cost"]),
@@ -81,18 +83,7 @@ fn what_it_does_wrong_has_an_exit_code_of_its_own() {
     }
     let folder = map(MAP);
     let file = folder.name("m.map");
-    let ask = |planner: &str| {
-        pf(&[
-            "plan",
-            &file,
-            "--from",
-            "0,0",
-            "--to",
-            "4,3",
-            "--planner",
-            planner,
-        ])
-    };
+    let ask = |planner: &str| across(&file, planner, &[]);
     let (_folder, liar) =
         folder_with("dict(id=q['id'], outcome='optimal', path=[q['start'], q['goal']])");
     let run = ask(&liar).ends(6);

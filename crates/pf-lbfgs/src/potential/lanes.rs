@@ -44,16 +44,19 @@ impl Samples {
     /// Of the segment that begins there in a path.
     #[inline]
     pub(super) fn of(path: &[f64], segment: usize) -> Self {
-        let ends = &path[segment..segment + 4];
-        let at = [0, 1].map(|k| {
-            f64x4::splat(ends[k]) + f64x4::new(SHARES) * f64x4::splat(ends[k + 2] - ends[k])
-        });
+        let at = places(&path[segment..segment + 4], f64x4::new(SHARES));
         Self { at, segment }
     }
 }
 
 /// The samples' shares in their segment's second end.
-const SHARES: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+pub(super) const SHARES: [f64; 4] = [0.0, 1.0 / 3.0, 2.0 / 3.0, 1.0];
+
+/// By axis: where four shares of the way along a segment lie.
+#[inline]
+fn places(ends: &[f64], share: f64x4) -> [f64x4; 2] {
+    [0, 1].map(|k| f64x4::splat(ends[k]) + share * f64x4::splat(ends[k + 2] - ends[k]))
+}
 
 impl<'g> Packed<'g> {
     pub(super) fn new(lambda: f64, gradient: &'g mut [f64]) -> Self {
@@ -147,9 +150,7 @@ impl Bump {
         kick: Option<&mut PlanRng>,
         sum: &mut Option<Lanes>,
     ) {
-        let at = [0, 1]
-            .map(|k| f64x4::splat(segment[k]) + t * f64x4::splat(segment[k + 2] - segment[k]));
-        let Some((value, [gx, gy])) = self.heights(at, kick) else {
+        let Some((value, [gx, gy])) = self.heights(places(segment, t), kick) else {
             return;
         };
         let first = f64x4::ONE - t;
