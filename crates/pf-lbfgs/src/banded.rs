@@ -80,19 +80,19 @@ impl Banded {
 
     /// Puts the first so many columns, and the last ones mirrored, beside each other.
     fn pair_up(&mut self, right: &[f64], count: usize) {
-        let last = right.len() - 1;
+        let size = right.len();
         let columns = &self.columns;
         self.both.clear();
         self.both.extend((0..count).map(|k| {
             std::array::from_fn(|i| {
-                let back = (last - k).checked_sub(i).map_or(0.0, |j| columns[j][i]);
+                let back = (size - 1 - k).checked_sub(i).map_or(0.0, |j| columns[j][i]);
                 f64x2::new([columns[k][i], back])
             })
         }));
         self.both.resize(count + REACH, [f64x2::ZERO; WIDTH]);
         self.known.clear();
         self.known
-            .extend((0..count).map(|k| f64x2::new([right[k], right[last - k]])));
+            .extend((0..count).map(|k| f64x2::new([right[k], right[size - 1 - k]])));
         self.known.resize(count + REACH, f64x2::ZERO);
     }
 }
@@ -127,7 +127,7 @@ fn eliminate(whole: [f64; 2], columns: &mut [[f64x2; WIDTH]], known: &mut [f64x2
 #[inline]
 fn substitute(column: &[f64x2; WIDTH], known: &mut [f64x2]) {
     for i in 1..WIDTH {
-        known[0] = known[0] - column[i] * known[i];
+        known[0] -= column[i] * known[i];
     }
 }
 
@@ -138,34 +138,31 @@ mod tests {
 
     #[test]
     fn a_system_is_solved() {
-        let mut matrix = Banded::default();
-        matrix.reset(9);
-        for i in 0..9usize {
-            for j in i.saturating_sub(REACH)..=i {
-                let value = if i == j { 9.0 } else { ratio(1, 1 + i + j) };
-                matrix.add(i, j, value);
+        for size in 0..40 {
+            let mut matrix = Banded::default();
+            matrix.reset(size);
+            for i in 0..size {
+                for j in i.saturating_sub(REACH)..=i {
+                    let value = if i == j { 9.0 } else { ratio(1, 1 + i + j) };
+                    matrix.add(i, j, value);
+                }
+            }
+            let wanted: Vec<f64> = (0..size).map(|k| ratio(k, 1) - 3.0).collect();
+            let entry = |i: usize, j: usize| {
+                let (i, j) = (i.max(j), i.min(j));
+                matrix.columns[j].get(i - j).copied().unwrap_or(0.0)
+            };
+            let mut right: Vec<f64> = (0..size)
+                .map(|i| (0..size).map(|j| entry(i, j) * wanted[j]).sum())
+                .collect();
+            matrix.solve(&mut right).unwrap();
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() < 1e-12 * ratio(size, 1);
+            assert!(right.iter().zip(&wanted).all(near), "{size}: {right:?}");
+            for k in 0..size {
+                let mut matrix = matrix.clone();
+                matrix.add(k, k, -10.0);
+                assert!(matrix.solve(&mut right).is_none(), "{k} of {size}");
             }
         }
-        let wanted: Vec<f64> = (0..9).map(|k| f64::from(k) - 3.0).collect();
-        let entry = |i: usize, j: usize| {
-            let (i, j) = (i.max(j), i.min(j));
-            if i - j > REACH {
-                0.0
-            } else {
-                matrix.columns[j][i - j]
-            }
-        };
-        let mut right: Vec<f64> = (0..9)
-            .map(|i| (0..9).map(|j| entry(i, j) * wanted[j]).sum())
-            .collect();
-        matrix.solve(&mut right).unwrap();
-        assert!(
-            right
-                .iter()
-                .zip(&wanted)
-                .all(|(a, b)| (a - b).abs() < 1e-12)
-        );
-        matrix.add(4, 4, -10.0);
-        assert!(matrix.solve(&mut right).is_none());
     }
 }

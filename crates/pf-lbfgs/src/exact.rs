@@ -42,16 +42,27 @@ pub(crate) struct Exact {
     last: Vec<f64>,
     /// Whether it was as good as it gets.
     finished: bool,
-    /// The exact shortest path as it was laid out, the path in work, and another.
+    /// A way that was not taken, as good as it gets, and where: hardly any better soon after.
+    rival: Vec<f64>,
+    rival_in: Option<Stamp>,
+    /// The exact shortest path as it was laid out, the path in work, and others.
     laid: Vec<f64>,
     path: Vec<f64>,
-    other: Vec<f64>,
+    kept: Vec<f64>,
+    joined: Vec<f64>,
 }
 
 /// An exact shortest path, and at what distance from everything.
 struct Guide {
     route: Route,
     distance: f64,
+}
+
+/// What is to end where the ends are now.
+#[derive(Clone, Copy)]
+enum Followed {
+    Last,
+    Rival,
 }
 
 /// How a path came about.
@@ -68,6 +79,7 @@ impl Exact {
         self.wide.forget();
         self.narrow.forget();
         self.last.clear();
+        self.rival.clear();
     }
 
     /// Plans from scratch.
@@ -188,7 +200,8 @@ impl Exact {
 
     /// Tries to keep to the last path's side of things. Says whether `path` is good now.
     fn keep_on(&mut self, job: &mut Job<'_>, cx: &mut Context<'_, WorldProblem>) -> (bool, Origin) {
-        let leapt = self.follow_ends(job.problem);
+        let moved = self.follow_ends(job.problem, Followed::Last);
+        let leapt = self.leapt(moved);
         if same_class(&self.hinge.solids, &self.path, &self.laid) {
             // The exact path may be the better beginning after a leap.
             let weight = |exact: &mut Self, path: &[f64], job: &Job<'_>| exact.loss(path, job);
@@ -223,49 +236,84 @@ impl Exact {
         if length(&self.laid) >= enough {
             return (true, origin);
         }
-        self.other.clone_from(&self.path);
-        self.path.clone_from(&self.laid);
-        let better = self.improve(job, true, cx).is_some() && length(&self.path) < enough;
-        if better {
-            return (true, Origin::Afresh);
-        }
-        std::mem::swap(&mut self.path, &mut self.other);
-        (true, origin)
+        self.challenge(job, enough, origin, cx)
     }
 
-    /// Puts the last path into `path`, its ends where they are now: bent along if that keeps its
-    /// class, else with a straight piece to each. Says whether an end went further than a step of the
-    /// path: a path bent that far is no good beginning.
-    fn follow_ends(&mut self, problem: &WorldProblem) -> bool {
-        let n = self.last.len() / 2;
+    /// Tries whether the way of the exact path, which is another than `path`'s, comes out shorter than
+    /// `enough`; the longer one is the rival from now on.
+    fn challenge(
+        &mut self,
+        job: &mut Job<'_>,
+        enough: f64,
+        origin: Origin,
+        cx: &mut Context<'_, WorldProblem>,
+    ) -> (bool, Origin) {
+        std::mem::swap(&mut self.path, &mut self.kept);
+        let stamp = Some(job.problem.world().stamp());
+        let mut known = !self.rival.is_empty() && self.rival_in == stamp;
+        if known {
+            let [from, to] = self.follow_ends(job.problem, Followed::Rival);
+            known =
+                !self.leapt([from, to]) && same_class(&self.hinge.solids, &self.path, &self.laid);
+            // Whatever leads between the new ends leads between the old ones by way of them.
+            if known && length(&self.rival) - (from + to) >= enough {
+                std::mem::swap(&mut self.path, &mut self.kept);
+                return (true, origin);
+            }
+        }
+        if !known {
+            self.path.clone_from(&self.laid);
+        }
+        let passes = self.improve(job, !known, cx).is_some();
+        let better = passes && length(&self.path) < enough;
+        if !better {
+            std::mem::swap(&mut self.path, &mut self.kept);
+        }
+        self.rival.clear();
+        if passes {
+            self.rival.extend_from_slice(&self.kept);
+            self.rival_in = stamp;
+        }
+        (true, if better { Origin::Afresh } else { origin })
+    }
+
+    /// Puts the last path, or its rival, into `path`, its ends where they are now: all else stays if that
+    /// keeps its class, for near a minimum Newton's first step is best; else with a straight piece to
+    /// each. Says how far the ends went.
+    fn follow_ends(&mut self, problem: &WorldProblem, followed: Followed) -> [f64; 2] {
+        let old = match followed {
+            Followed::Last => &self.last,
+            Followed::Rival => &self.rival,
+        };
+        let n = old.len() / 2;
         let ends = [problem.start(), problem.goal()];
-        let old = [
-            Point::new(self.last[0], self.last[1]),
-            Point::new(self.last[2 * n - 2], self.last[2 * n - 1]),
+        let before = [
+            Point::new(old[0], old[1]),
+            Point::new(old[2 * n - 2], old[2 * n - 1]),
         ];
-        let by = [ends[0] - old[0], ends[1] - old[1]];
+        let by = [ends[0] - before[0], ends[1] - before[1]];
         self.path.clear();
         self.path.extend([ends[0].x, ends[0].y]);
-        for k in 1..n - 1 {
-            let t = ratio(k, n - 1);
-            let shift = by[0] * (1.0 - t) + by[1] * t;
-            self.path
-                .extend([self.last[2 * k] + shift.x, self.last[2 * k + 1] + shift.y]);
-        }
+        self.path.extend(old.iter().take(2 * n - 2).skip(2));
         self.path.extend([ends[1].x, ends[1].y]);
-        let furthest = by[0].norm().max(by[1].norm());
-        if furthest <= 0.0 {
-            return false;
+        let moved = by.map(|by| by.norm());
+        if moved.iter().all(|by| *by <= 0.0) {
+            return moved;
         }
-        self.other.clear();
-        self.other.extend([ends[0].x, ends[0].y]);
-        self.other.extend_from_slice(&self.last);
-        self.other.extend([ends[1].x, ends[1].y]);
-        if !same_class(&self.hinge.solids, &self.path, &self.other) {
-            let corners: Vec<Point> = points(&self.other).collect();
-            lay(&corners, n - 2, &mut self.path);
+        self.joined.clear();
+        self.joined.extend([ends[0].x, ends[0].y]);
+        self.joined.extend_from_slice(old);
+        self.joined.extend([ends[1].x, ends[1].y]);
+        if !same_class(&self.hinge.solids, &self.path, &self.joined) {
+            let corners: Vec<Point> = points(&self.joined).collect();
+            lay(&corners, n.saturating_sub(2), &mut self.path);
         }
-        furthest > length(&self.path) / ratio(n - 1, 1)
+        moved
+    }
+
+    /// Whether an end went further than a step of the path: then what was followed is no good beginning.
+    fn leapt(&self, moved: [f64; 2]) -> bool {
+        moved[0].max(moved[1]) > length(&self.path) / ratio(self.path.len() / 2 - 1, 1)
     }
 
     /// The loss of a path by which two beginnings are compared.
