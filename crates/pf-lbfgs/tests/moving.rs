@@ -68,10 +68,8 @@ fn a_warm_start_is_as_good_as_a_cold_one() {
         ratios.sort_by(f64::total_cmp);
         let (median, worst) = (ratios[ratios.len() / 2], ratios[ratios.len() - 1]);
         let high = ratios[ratios.len() * 99 / 100];
-        let over = ratios.iter().filter(|ratio| **ratio > 1.02).count();
-        println!("{obstacles}: median {median:.4}, 99 % {high:.4}, worst {worst:.4}, {over} over");
-        // Now and then a class holds two valleys, and each start ends in one of its own.
-        assert!(high <= 1.02 && worst <= 1.05, "{obstacles}: {high} {worst}");
+        println!("{obstacles}: median {median:.4}, 99 % {high:.4}, worst {worst:.4}");
+        assert!(worst <= 1.02, "{obstacles}: {worst}");
     }
 }
 

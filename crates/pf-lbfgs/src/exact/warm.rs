@@ -1,0 +1,157 @@
+//! From the last path to the next: which side of things is kept, and from where to improve.
+
+use super::{Exact, Job, Origin};
+use crate::{
+    class::{lay, length, ratio, same_class},
+    published::points,
+};
+use pf_core::Context;
+use pf_geom::{Point, WorldProblem};
+
+/// What is to end where the ends are now.
+#[derive(Clone, Copy)]
+enum Followed {
+    Last,
+    Rival,
+}
+
+impl Exact {
+    /// Tries to keep to the last path's side of things. Says whether `path` is good now.
+    pub(super) fn keep_on(
+        &mut self,
+        job: &mut Job<'_>,
+        cx: &mut Context<'_, WorldProblem>,
+    ) -> (bool, Origin) {
+        let moved = self.follow_ends(job.problem, Followed::Last);
+        let leapt = self.leapt(moved);
+        if same_class(&self.hinge.solids, &self.path, &self.laid) {
+            // The exact path may be the better beginning after a leap.
+            return if leapt || self.prefers_laid(job) {
+                (false, Origin::Afresh)
+            } else {
+                self.repair(job, cx)
+            };
+        }
+        if job.params.hysteresis <= 0.0 {
+            return (false, Origin::Afresh);
+        }
+        let (good, origin) = self.improve_warm(job, cx);
+        if !good {
+            return (false, Origin::Afresh);
+        }
+        let enough = length(&self.path) * (1.0 - job.params.hysteresis);
+        // What is laid out is hardly longer than any path of its class can be short.
+        if length(&self.laid) >= enough {
+            return (true, origin);
+        }
+        self.challenge(job, enough, origin, cx)
+    }
+
+    /// Improves the last path in `path`, which is of the exact path's class. A class may hold two valleys:
+    /// where nothing is to be kept for its own sake, the exact path's is tried, too.
+    fn repair(&mut self, job: &mut Job<'_>, cx: &mut Context<'_, WorldProblem>) -> (bool, Origin) {
+        let (good, origin) = self.improve_warm(job, cx);
+        if !good || job.params.hysteresis > 0.0 {
+            return (good, origin);
+        }
+        self.kept.clone_from(&self.path);
+        self.path.clone_from(&self.laid);
+        let passes = self.improve(job, true, cx).is_some();
+        std::mem::swap(&mut self.path, &mut self.laid);
+        std::mem::swap(&mut self.path, &mut self.kept);
+        if passes && self.prefers_laid(job) {
+            std::mem::swap(&mut self.path, &mut self.laid);
+            return (true, Origin::Afresh);
+        }
+        (true, origin)
+    }
+
+    fn improve_warm(
+        &mut self,
+        job: &mut Job<'_>,
+        cx: &mut Context<'_, WorldProblem>,
+    ) -> (bool, Origin) {
+        match self.improve(job, false, cx) {
+            Some(0) => (true, Origin::Kept),
+            Some(_) => (true, Origin::Repaired),
+            None => (false, Origin::Afresh),
+        }
+    }
+
+    /// Tries whether the way of the exact path, which is another than `path`'s, comes out shorter than
+    /// `enough`; the longer one is the rival from now on.
+    fn challenge(
+        &mut self,
+        job: &mut Job<'_>,
+        enough: f64,
+        origin: Origin,
+        cx: &mut Context<'_, WorldProblem>,
+    ) -> (bool, Origin) {
+        std::mem::swap(&mut self.path, &mut self.kept);
+        let stamp = Some(job.problem.world().stamp());
+        let mut known = !self.rival.is_empty() && self.rival_in == stamp;
+        if known {
+            let [from, to] = self.follow_ends(job.problem, Followed::Rival);
+            known =
+                !self.leapt([from, to]) && same_class(&self.hinge.solids, &self.path, &self.laid);
+            // Whatever leads between the new ends leads between the old ones by way of them.
+            if known && length(&self.rival) - (from + to) >= enough {
+                std::mem::swap(&mut self.path, &mut self.kept);
+                return (true, origin);
+            }
+        }
+        if !known {
+            self.path.clone_from(&self.laid);
+        }
+        let passes = self.improve(job, !known, cx).is_some();
+        let better = passes && length(&self.path) < enough;
+        if !better {
+            std::mem::swap(&mut self.path, &mut self.kept);
+        }
+        self.rival.clear();
+        if passes {
+            self.rival.extend_from_slice(&self.kept);
+            self.rival_in = stamp;
+        }
+        (true, if better { Origin::Afresh } else { origin })
+    }
+
+    /// Puts the last path, or its rival, into `path`, its ends where they are now: all else stays if that
+    /// keeps its class, for near a minimum Newton's first step is best; else with a straight piece to
+    /// each. Says how far the ends went.
+    fn follow_ends(&mut self, problem: &WorldProblem, followed: Followed) -> [f64; 2] {
+        let old = match followed {
+            Followed::Last => &self.last,
+            Followed::Rival => &self.rival,
+        };
+        let n = old.len() / 2;
+        let ends = [problem.start(), problem.goal()];
+        let before = [
+            Point::new(old[0], old[1]),
+            Point::new(old[2 * n - 2], old[2 * n - 1]),
+        ];
+        let by = [ends[0] - before[0], ends[1] - before[1]];
+        self.path.clear();
+        self.path.extend([ends[0].x, ends[0].y]);
+        self.path.extend(old.iter().take(2 * n - 2).skip(2));
+        self.path.extend([ends[1].x, ends[1].y]);
+        let moved = by.map(|by| by.norm());
+        if moved.iter().all(|by| *by <= 0.0) {
+            return moved;
+        }
+        self.joined.clear();
+        self.joined.extend([ends[0].x, ends[0].y]);
+        self.joined.extend_from_slice(old);
+        self.joined.extend([ends[1].x, ends[1].y]);
+        if !same_class(&self.hinge.solids, &self.path, &self.joined) {
+            let corners: Vec<Point> = points(&self.joined).collect();
+            lay(&corners, n.saturating_sub(2), &mut self.path);
+        }
+        moved
+    }
+
+    /// Whether an end went further than a step of the path: then what was followed is no good beginning.
+    fn leapt(&self, moved: [f64; 2]) -> bool {
+        moved[0].max(moved[1]) > length(&self.path) / ratio(self.path.len() / 2 - 1, 1)
+    }
+}
