@@ -158,7 +158,7 @@ impl LocalPlanner<WorldProblem> for Colony {
             return Step::GiveUp;
         }
         if self.steps >= self.params.steps {
-            cx.note("gave up", format!("after steps={}", self.params.steps));
+            cx.note("gave up", format_args!("after steps={}", self.params.steps));
             return Step::GiveUp;
         }
         self.steps += 1;

@@ -115,7 +115,7 @@ impl Replanner<WorldProblem> for Abc {
         } else {
             let walked = walked(&last.path, problem.start());
             colony.recall(walked, &boxes(changes, &last.problem, problem));
-            cx.note("replanned", format!("after {} steps", walked.len()));
+            cx.note("replanned", format_args!("after {} steps", walked.len()));
         }
         self.walk(problem, cx)
     }

@@ -2,8 +2,8 @@
 
 use crate::{Clock, Event, Note, Outcome, Problem, Proof, Report, Solved, Stats, Stop, Trace};
 use rand::SeedableRng;
+use smol_str::ToSmolStr;
 use std::{
-    borrow::Cow,
     fmt, mem,
     sync::{
         Arc,
@@ -348,8 +348,8 @@ impl<'a, P: Problem> Context<'a, P> {
     }
 
     /// Adds a note to the report.
-    pub fn note(&mut self, key: &'static str, text: impl Into<Cow<'static, str>>) {
-        let text = text.into();
+    pub fn note(&mut self, key: &'static str, text: impl fmt::Display) {
+        let text = text.to_smolstr();
         self.notes.push(Note { key, text });
     }
 

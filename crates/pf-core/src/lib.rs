@@ -108,6 +108,7 @@ pub use outcome::{
     InvalidProblem, Note, Outcome, Proof, Report, Solved, Stats, Stop, Unsupported, Violation,
 };
 pub use params::{InvalidParams, Key, Params};
+pub use smol_str::SmolStr;
 pub use stamp::Stamp;
 
 use std::fmt::Debug;

@@ -228,7 +228,7 @@ impl<P: Wire> Planner<P> for External<P> {
         self.program = None;
         // A budget that ends kills the program, too: that is no fault of its.
         if !cx.is_over() {
-            cx.note(FAULT, format!("{} {fault}", self.name));
+            cx.note(FAULT, format_args!("{} {fault}", self.name));
         }
         Ok(cx.report(nothing))
     }

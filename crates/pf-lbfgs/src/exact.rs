@@ -48,6 +48,7 @@ pub(crate) struct Exact {
     rival: Vec<f64>,
     rival_in: Option<Stamp>,
     /// The exact shortest path as it was laid out, the path in work, and others.
+    corners: Vec<Point>,
     laid: Vec<f64>,
     path: Vec<f64>,
     kept: Vec<f64>,
@@ -58,6 +59,8 @@ pub(crate) struct Exact {
 struct Guide {
     route: Route,
     distance: f64,
+    /// Whose it is.
+    wide: bool,
 }
 
 /// How a path came about.
@@ -127,17 +130,18 @@ impl Exact {
             self.hinge.bounds = Some(*problem.world().bounds());
             self.filled = Some(problem.world().stamp());
         }
-        let mut corners = guide.route.flattened(COARSE * guide.route.length());
+        let excess = COARSE * guide.route.length();
+        guide.route.flatten_into(excess, &mut self.corners);
         thin(
-            &mut corners,
+            &mut self.corners,
             CLOSE * guide.route.length() / ratio(params.points + 1, 1),
         );
         let inner = match params.obstacles {
-            Obstacles::Hinge => params.points.max(2 * corners.len()),
+            Obstacles::Hinge => params.points.max(2 * self.corners.len()),
             // The paper's loss depends on their number.
             Obstacles::Potential => params.points,
         };
-        lay(&corners, inner, &mut self.laid);
+        lay(&self.corners, inner, &mut self.laid);
         let mut job = Job {
             problem,
             params,
@@ -160,8 +164,19 @@ impl Exact {
             cx.note("fallback", "the exact shortest path: no smooth one passed");
             flattened(problem, &guide)
         };
+        self.reclaim(guide);
         let finished = !cx.stopped();
         self.close(problem, path, origin, finished, cx)
+    }
+
+    /// Gives the memory of a guide back for the next one.
+    fn reclaim(&mut self, guide: Guide) {
+        let graph = if guide.wide {
+            &mut self.wide
+        } else {
+            &mut self.narrow
+        };
+        graph.reclaim(guide.route);
     }
 
     /// The exact shortest path, at the asked clearance if one has it.
@@ -175,7 +190,14 @@ impl Exact {
         if clearance > 0.0 && distance.is_finite() {
             let grown = with_radius(problem, distance);
             match grown.map(|grown| self.wide.shortest(&grown, cx)) {
-                Some(Answer::Route(route)) => return Ok(Guide { route, distance }),
+                Some(Answer::Route(route)) => {
+                    let wide = true;
+                    return Ok(Guide {
+                        route,
+                        distance,
+                        wide,
+                    });
+                }
                 Some(Answer::Cut) => return Err(Outcome::Unknown { attempt: None }),
                 Some(Answer::Nothing) | None => {}
             }
@@ -183,10 +205,15 @@ impl Exact {
         match self.narrow.shortest(problem, cx) {
             Answer::Route(route) => {
                 if clearance > 0.0 {
-                    cx.note("asked clearance", format!("no path has {clearance}"));
+                    cx.note("asked clearance", format_args!("no path has {clearance}"));
                 }
                 let distance = problem.radius();
-                Ok(Guide { route, distance })
+                let wide = false;
+                Ok(Guide {
+                    route,
+                    distance,
+                    wide,
+                })
             }
             Answer::Nothing => Err(Outcome::Infeasible),
             Answer::Cut => Err(Outcome::Unknown { attempt: None }),
@@ -306,7 +333,10 @@ impl Exact {
         self.last.clear();
         self.last.extend(path.iter().flat_map(|p| [p.x, p.y]));
         cx.note("replanned", origin.word());
-        cx.note("clearance", format!("{:.4}", clearance(problem, &path)));
+        cx.note(
+            "clearance",
+            format_args!("{:.4}", clearance(problem, &path)),
+        );
         let report = cx.answer(problem, path, Proof::None);
         if report.outcome.solved().is_none() {
             self.last.clear();

@@ -12,15 +12,15 @@ fn a_plan_by_published_rules_allocates_its_path() {
     for params in [LbfgsParams::paper(), LbfgsParams::published_code()] {
         let mut planner = Lbfgs::new(params).unwrap();
         planner.plan(&problem, &mut Context::seeded(0)).unwrap();
-        let taken = measure(|| drop(planner.plan(&problem, &mut Context::seeded(0)).unwrap()));
-        // The judge's index takes one more.
-        assert!(taken.count_total <= 2, "{}", taken.count_total);
+        let mut cx = Context::seeded(0);
+        let taken = measure(|| drop(planner.plan(&problem, &mut cx).unwrap()));
+        assert!(taken.count_total <= 1, "{}", taken.count_total);
     }
 }
 
-/// However long it takes to get there.
+/// The path and the list of notes, however long it takes to get there.
 #[test]
-fn ours_allocates_little_beside() {
+fn ours_allocates_one_thing_beside() {
     for obstacles in [Obstacles::Hinge, Obstacles::Potential] {
         let mut problem = waypoint_world(1, 10, Kind::Rectangles);
         let mut planner = Lbfgs::new(LbfgsParams {
@@ -28,14 +28,25 @@ fn ours_allocates_little_beside() {
             ..LbfgsParams::default()
         })
         .unwrap();
-        planner.plan(&problem, &mut Context::seeded(0)).unwrap();
-        let taken = measure(|| drop(planner.plan(&problem, &mut Context::seeded(0)).unwrap()));
-        assert!(taken.count_total <= 12, "{}", taken.count_total);
-        let goal = problem.goal() - pf_geom::Vector::new(0.3, 0.2);
-        let changes = [WorldChange::GoalMoved(goal)];
-        let revision = problem.revise(&changes).unwrap();
-        let mut cx = Context::seeded(0);
-        let taken = measure(|| drop(planner.replan(&revision, &mut cx).unwrap()));
-        assert!(taken.count_total <= 16, "{}", taken.count_total);
+        let by = pf_geom::Vector::new(0.3, 0.2);
+        for round in 0..20 {
+            let mut cx = Context::seeded(0);
+            let taken = measure(|| drop(planner.plan(&problem, &mut cx).unwrap()));
+            assert!(
+                round < 10 || taken.count_total <= 2,
+                "{}",
+                taken.count_total
+            );
+            let goal = problem.goal() + if round % 2 == 0 { by } else { -by };
+            let changes = [WorldChange::GoalMoved(goal)];
+            let revision = problem.revise(&changes).unwrap();
+            let mut cx = Context::seeded(0);
+            let taken = measure(|| drop(planner.replan(&revision, &mut cx).unwrap()));
+            assert!(
+                round < 10 || taken.count_total <= 2,
+                "{}",
+                taken.count_total
+            );
+        }
     }
 }

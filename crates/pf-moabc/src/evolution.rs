@@ -177,7 +177,10 @@ impl<S: Strategy> Evolution<S> {
             hive.announce(problem, cx);
         }
         if let Some(Verdict::Nothing(robot)) = asked {
-            cx.note("dead end", format!("robot {robot} has no path even alone"));
+            cx.note(
+                "dead end",
+                format_args!("robot {robot} has no path even alone"),
+            );
             return cx.report(Outcome::Infeasible);
         }
         self.close(problem, cx)

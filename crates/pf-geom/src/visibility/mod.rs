@@ -50,6 +50,10 @@ pub struct TangentGraph {
     /// By group: how far its middle is from the end asked for.
     to_end: Vec<f64>,
     open: BinaryHeap<Candidate>,
+    /// Labels seen before anything was pushed behind them.
+    reached: Vec<u32>,
+    /// For the next route.
+    spare: Vec<Bend>,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -97,6 +101,11 @@ impl TangentGraph {
             Answer::Route(route) if backwards => Answer::Route(route.reversed()),
             answer => answer,
         }
+    }
+
+    /// Takes back the memory of a route that nobody needs any more: the next one will use it.
+    pub fn reclaim(&mut self, route: Route) {
+        self.spare = route.bends;
     }
 
     /// Forgets the ways and which straight pieces are free, so that the next query takes as many

@@ -75,10 +75,18 @@ impl Route {
     /// the whole is at most `excess` longer.
     #[must_use]
     pub fn flattened(&self, excess: f64) -> Vec<Point> {
+        let mut path = Vec::new();
+        self.flatten_into(excess, &mut path);
+        path
+    }
+
+    /// The same, in place of what `path` held.
+    pub fn flatten_into(&self, excess: f64, path: &mut Vec<Point>) {
         let arcs = self.bends.iter().filter(|bend| is_arc(bend)).count().max(1);
         #[expect(clippy::cast_precision_loss, reason = "a number of bends")]
         let share = excess / arcs as f64;
-        let mut path = vec![self.start];
+        path.clear();
+        path.push(self.start);
         for bend in &self.bends {
             if !is_arc(bend) {
                 path.push(bend.at(0.0, bend.radius));
@@ -97,7 +105,6 @@ impl Route {
         if path.len() == 1 {
             path.push(self.goal);
         }
-        path
     }
 }
 

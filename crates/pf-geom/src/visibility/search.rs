@@ -50,7 +50,8 @@ impl TangentGraph {
         }
         // First by ways that are known: nothing longer is of interest then.
         let mut best = None;
-        let mut reached = Vec::new();
+        let mut reached = std::mem::take(&mut self.reached);
+        reached.clear();
         let mut trials = 0;
         while best.is_none()
             && trials < TRIALS
@@ -78,9 +79,10 @@ impl TangentGraph {
             // They came in their order: none of the others is shorter.
             self.open.clear();
         }
-        for label in reached {
+        for &label in &reached {
             self.reopen(label, &aim);
         }
+        self.reached = reached;
         while let Some(Candidate { f, next }) = self.open.pop() {
             match next {
                 Next::Label(label) => {
@@ -292,8 +294,9 @@ impl TangentGraph {
     }
 
     /// The route that goes to a label and from there straight to the target.
-    fn route(&self, label: u32, target: &Disc, length: f64) -> Route {
-        let mut bends = Vec::new();
+    fn route(&mut self, label: u32, target: &Disc, length: f64) -> Route {
+        let mut bends = std::mem::take(&mut self.spare);
+        bends.clear();
         let mut label = &self.tree.labels[label as usize];
         let mut leaving = self
             .last_piece(label, target)

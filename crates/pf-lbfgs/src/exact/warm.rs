@@ -144,8 +144,9 @@ impl Exact {
         self.joined.extend_from_slice(old);
         self.joined.extend([ends[1].x, ends[1].y]);
         if !same_class(&self.hinge.solids, &self.path, &self.joined) {
-            let corners: Vec<Point> = points(&self.joined).collect();
-            lay(&corners, n.saturating_sub(2), &mut self.path);
+            self.corners.clear();
+            self.corners.extend(points(&self.joined));
+            lay(&self.corners, n.saturating_sub(2), &mut self.path);
         }
         moved
     }

@@ -84,7 +84,10 @@ impl Planner<TeamProblem> for Prioritised {
                 cx.answer(problem, Front::unchecked(vec![plan]), Proof::None)
             }
             Verdict::Nothing(robot) => {
-                cx.note("dead end", format!("robot {robot} has no path even alone"));
+                cx.note(
+                    "dead end",
+                    format_args!("robot {robot} has no path even alone"),
+                );
                 cx.report(Outcome::Infeasible)
             }
             Verdict::Failed => cx.report(Outcome::Unknown { attempt: None }),
