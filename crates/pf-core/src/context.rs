@@ -1,8 +1,9 @@
 //! The only door to chance, time and the outside world.
 
-use crate::{Clock, Event, Note, Outcome, Problem, Proof, Report, Solved, Stats, Stop, Trace};
+use crate::{
+    Clock, Event, Note, Outcome, Problem, Proof, Report, Solved, Stats, Stop, Text, Trace,
+};
 use rand::SeedableRng;
-use smol_str::ToSmolStr;
 use std::{
     fmt, mem,
     sync::{
@@ -349,7 +350,7 @@ impl<'a, P: Problem> Context<'a, P> {
 
     /// Adds a note to the report.
     pub fn note(&mut self, key: &'static str, text: impl fmt::Display) {
-        let text = text.to_smolstr();
+        let text = Text::of(text);
         self.notes.push(Note { key, text });
     }
 

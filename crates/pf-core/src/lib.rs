@@ -98,6 +98,7 @@ mod cost;
 mod outcome;
 mod params;
 mod stamp;
+mod text;
 
 pub use adapters::{FromScratch, Rollout, Walk, Walked};
 pub use claims::Claims;
@@ -108,8 +109,8 @@ pub use outcome::{
     InvalidProblem, Note, Outcome, Proof, Report, Solved, Stats, Stop, Unsupported, Violation,
 };
 pub use params::{InvalidParams, Key, Params};
-pub use smol_str::SmolStr;
 pub use stamp::Stamp;
+pub use text::Text;
 
 use std::fmt::Debug;
 

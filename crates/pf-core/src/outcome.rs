@@ -1,7 +1,6 @@
 //! What comes back from planning, and what may go wrong.
 
-use crate::Problem;
-use smol_str::SmolStr;
+use crate::{Problem, Text};
 use std::{borrow::Cow, fmt, time::Duration};
 
 /// A solution with the cost its planner states for it; `pf-conformance` checks the statement.
@@ -123,8 +122,8 @@ pub struct Stats {
 pub struct Note {
     /// What it is about, for programs: `"nearest"`, `"chose"`, `"repaired"`.
     pub key: &'static str,
-    /// What there is to say, for people; up to 23 bytes take no memory of their own.
-    pub text: SmolStr,
+    /// What there is to say, for people.
+    pub text: Text,
 }
 
 impl fmt::Display for Note {

@@ -1,7 +1,7 @@
 //! Scenes as grids: those on grids as they are, worlds as cells.
 
 use crate::{Changes, Conversion, Found, FromScene, Posed, Scene, WorldScene};
-use pf_core::{InvalidProblem, Note, Problem, Solved};
+use pf_core::{InvalidProblem, Note, Problem, Solved, Text};
 use pf_geom::{Point, Raster};
 use pf_grid::{Cell, Grid, GridChange, GridProblem};
 
@@ -68,7 +68,7 @@ impl FromScene for GridProblem {
             && let Ok(cell) = note.text.parse::<Cell>()
         {
             let centre = raster.centre(cell);
-            note.text = format!("{},{}", centre.x, centre.y).into();
+            note.text = Text::of(format_args!("{},{}", centre.x, centre.y));
         }
         note
     }

@@ -1,7 +1,7 @@
 use crate::{Changes, Conversion, Found, FromScene, Line, Posed, Scene};
 use pf_core::{
     Budget, Claims, Clock, Context, Cost, InvalidProblem, Note, Outcome, Problem, Replanner,
-    Report, Solved, Stats, Stop, Trace, Unsupported,
+    Report, Solved, Stats, Stop, Text, Trace, Unsupported,
 };
 use pf_geom::Raster;
 use pf_render::Recorder;
@@ -139,7 +139,7 @@ fn lie<P: Problem>(problem: &P, solved: &Solved<P>) -> Option<String> {
 fn answer<P: FromScene>(posed: &Posed<P>, scene: &Scene, report: Report<P>) -> Answer {
     let mut notes: Vec<Note> = Vec::new();
     let mut say = |key, text: String| {
-        let text = text.into();
+        let text = Text::of(text);
         notes.push(Note { key, text });
     };
     if let Some(conversion) = &posed.conversion {
