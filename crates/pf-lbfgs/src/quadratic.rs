@@ -27,42 +27,47 @@ pub(crate) fn loss(path: &[f64], gradient: &mut [f64]) -> f64 {
 /// The same, four coordinates at a time.
 pub(crate) fn loss_in_lanes(path: &[f64], gradient: &mut [f64]) -> f64 {
     let size = path.len();
-    let step = |k: usize| path[k + 2] - path[k];
-    let bend = |k: usize| step(k) - step(k - 2);
+    if size < 12 {
+        return loss(path, gradient);
+    }
     let square = |v: f64| v * v;
-    // Of what pulls at a coordinate near an end some is missing.
-    let at_end = |k: usize| {
-        let step = |k: usize| if k + 2 < size { step(k) } else { 0.0 };
-        let bend = |k: usize| if k >= 2 && k + 2 < size { bend(k) } else { 0.0 };
-        let before = if k >= 2 {
-            step(k - 2) + bend(k - 2)
-        } else {
-            0.0
-        };
-        2.0 * (before - step(k) - 2.0 * bend(k) + bend(k + 2))
-    };
-    let middle = 4.min(size)..size.saturating_sub(4).max(4.min(size));
-    let (mut loss, mut k) = (0.0, middle.start);
-    let mut sum = f64x4::ZERO;
+    let mut loss = 0.0;
+    // The two points at either end, where there is less to pull: steps and the bend seen from there.
+    for axis in [0, 1] {
+        let steps = [0, 2, 4].map(|k| path[k + 2 + axis] - path[k + axis]);
+        let bends = [steps[1] - steps[0], steps[2] - steps[1]];
+        gradient[axis] = 2.0 * (bends[0] - steps[0]);
+        gradient[2 + axis] = 2.0 * (bends[1] - 3.0 * bends[0]);
+        loss += square(steps[0]) + square(steps[1]) + square(bends[0]);
+        let last = size - 2 + axis;
+        let steps = [0, 2, 4].map(|k| path[last - 2 - k] - path[last - k]);
+        let bends = [steps[1] - steps[0], steps[2] - steps[1]];
+        gradient[last] = 2.0 * (bends[0] - steps[0]);
+        gradient[last - 2] = 2.0 * (bends[1] - 3.0 * bends[0]);
+        loss += square(steps[0]) + square(bends[0]);
+    }
     let four = |at: usize| path[at..at + 4].try_into().map_or(f64x4::ZERO, f64x4::new);
-    let two = f64x4::splat(2.0);
-    while k + 4 <= middle.end {
-        let around = [k - 4, k - 2, k, k + 2, k + 4].map(four);
-        let steps = [0, 1, 2, 3].map(|i| around[i + 1] - around[i]);
-        let bends = [0, 1, 2].map(|i| steps[i + 1] - steps[i]);
-        sum += steps[2] * steps[2] + bends[1] * bends[1];
-        let pull = two * (bends[0] - two * bends[1] + bends[2] - bends[1]);
+    let (two, six) = (f64x4::splat(2.0), f64x4::splat(6.0));
+    let (mut k, mut here) = (4, four(4));
+    // The steps to here and from the one before.
+    let mut to_here = here - four(2);
+    let mut bend_before = to_here - (four(2) - four(0));
+    let mut sum = f64x4::ZERO;
+    while k + 8 <= size {
+        let (next, after) = (four(k + 2), four(k + 4));
+        let (step, next_step) = (next - here, after - next);
+        let (bend, bend_after) = (step - to_here, next_step - step);
+        sum += step * step + bend * bend;
+        let pull = two * (bend_before + bend_after) - six * bend;
         gradient[k..k + 4].copy_from_slice(&pull.to_array());
+        (here, to_here, bend_before) = (after, next_step, bend_after);
         k += 4;
     }
-    for k in (0..middle.start).chain(k..size) {
-        gradient[k] = at_end(k);
-        if k + 2 < size {
-            loss += square(step(k));
-            if k >= 2 {
-                loss += square(bend(k));
-            }
-        }
+    for k in k..size - 4 {
+        let steps = [0, 2, 4, 6].map(|by| path[k + by - 2] - path[k + by - 4]);
+        let bends = [0, 1, 2].map(|i| steps[i + 1] - steps[i]);
+        gradient[k] = 2.0 * (bends[0] + bends[2]) - 6.0 * bends[1];
+        loss += square(steps[2]) + square(bends[1]);
     }
     loss + sum.reduce_add()
 }
@@ -91,6 +96,31 @@ pub(crate) fn curvature(matrix: &mut Banded, points: usize) {
             if k >= 2 {
                 matrix.add(i, i - 4, 2.0);
             }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pf_conformance::seeded;
+    use rand::RngExt;
+
+    #[test]
+    fn lanes_say_the_same_of_paths_of_any_length() {
+        let mut rng = seeded(1);
+        for points in 2..40 {
+            let path: Vec<f64> = (0..2 * points)
+                .map(|_| rng.random_range(0.0..9.0))
+                .collect();
+            let [mut one, mut four] = [(); 2].map(|()| vec![f64::NAN; path.len()]);
+            let (a, b) = (loss(&path, &mut one), loss_in_lanes(&path, &mut four));
+            assert!((a - b).abs() <= 1e-12 * a, "{points}: {a} {b}");
+            let near = |(a, b): (&f64, &f64)| (a - b).abs() <= 1e-12 * 100.0;
+            assert!(
+                one.iter().zip(&four).all(near),
+                "{points}: {one:?} {four:?}"
+            );
         }
     }
 }
