@@ -135,7 +135,7 @@ fn index(k: usize) -> u32 {
 
 impl Loss for Hinge {
     fn loss(&mut self, path: &[f64], gradient: &mut [f64]) -> f64 {
-        let mut loss = quadratic::loss(path, gradient);
+        let mut loss = quadratic::loss_in_lanes(path, gradient);
         let weight = self.weight;
         self.look(path);
         for Lack {
