@@ -8,10 +8,10 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 ///
 /// Unlike a [`DistanceField`](crate::DistanceField), which knows what one start needs, they are
 /// exact everywhere once made, and stay so through [`repair`](Self::repair). Four bytes a cell in
-/// 32 bits. The root's distance is 0 even where the root is blocked; nothing leads on from it then.
+/// 32 bits, six in [`U48`](crate::U48). The root's distance is 0 even where the root is blocked; nothing leads on from it then.
 #[derive(Clone, Debug, Default)]
-pub struct Distances<W> {
-    values: Vec<W>,
+pub struct Distances<W: Word> {
+    values: Vec<W::Kept>,
     layout: Option<Layout>,
     basis: Option<(Cell, Weights)>,
 }
@@ -64,7 +64,7 @@ impl<W: Word> Distances<W> {
     #[inline]
     #[must_use]
     pub fn at(&self, id: u32) -> W {
-        self.values[id as usize]
+        W::of(self.values[id as usize])
     }
 
     /// Gives them up; the memory stays.
@@ -75,7 +75,7 @@ impl<W: Word> Distances<W> {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.values.capacity() * size_of::<W>()
+        self.values.capacity() * size_of::<W::Kept>()
     }
 
     /// Makes them anew: one expansion for every cell that the root can be reached from.
@@ -94,10 +94,10 @@ impl<W: Word> Distances<W> {
         self.layout = Some(layout);
         self.basis = None;
         self.values.clear();
-        self.values.resize(layout.len(), W::MAX);
+        self.values.resize(layout.len(), W::MAX.keep());
         let weights = Weights::of(grid);
         let id = layout.id(root);
-        self.values[id as usize] = W::default();
+        self.values[id as usize] = W::default().keep();
         let open = &mut sweeper.open;
         open.reset(W::default(), weights.reach(), weights.shift::<W>());
         if grid.is_free(root) {
@@ -107,10 +107,10 @@ impl<W: Word> Distances<W> {
             let weigh = |_, _, k| {
                 if k < 4 { W::STRAIGHT } else { W::DIAGONAL }
             };
-            spread(&mut self.values, problem, open, weigh, cx)
+            spread::<W>(&mut self.values, problem, open, weigh, cx)
         } else {
             let weigh = |from, to, k| weights.step(grid, from, to, k);
-            spread(&mut self.values, problem, open, weigh, cx)
+            spread::<W>(&mut self.values, problem, open, weigh, cx)
         };
         if end == Swept::Whole {
             self.basis = Some((root, weights));
@@ -167,15 +167,15 @@ impl<W: Word> Distances<W> {
         };
         queue.clear();
         raised.clear();
-        let known = near().map(|id| (values[id as usize], id));
+        let known = near().map(|id| (W::of(values[id as usize]), id));
         queue.extend(known.filter(|&(value, _)| value < W::MAX).map(Reverse));
         let mut expanded = 0;
         while let Some(Reverse((value, id))) = queue.pop() {
-            if id == root || values[id as usize] == W::MAX {
+            if id == root || W::of(values[id as usize]) == W::MAX {
                 continue;
             }
             let leads = |(next, weight)| {
-                let rest: W = values[next as usize];
+                let rest = W::of(values[next as usize]);
                 rest < value && rest + weight <= value
             };
             if steps.from(id).any(leads) {
@@ -189,11 +189,11 @@ impl<W: Word> Distances<W> {
                 return Swept::Cut;
             }
             cx.expanded(|| steps.layout.cell(id));
-            values[id as usize] = W::MAX;
+            values[id as usize] = W::MAX.keep();
             raised.push(id);
             // Whose step was legal and is not, or weighs something else, is near a change.
             for (next, weight) in steps.from::<W>(id) {
-                let theirs = values[next as usize];
+                let theirs = W::of(values[next as usize]);
                 if theirs < W::MAX && theirs == value + weight {
                     queue.push(Reverse((theirs, next)));
                 }
@@ -201,19 +201,19 @@ impl<W: Word> Distances<W> {
         }
         for id in near().chain(raised.iter().copied()) {
             let over = steps.from::<W>(id).filter_map(|(next, weight)| {
-                let rest = values[next as usize];
+                let rest = W::of(values[next as usize]);
                 (rest < W::MAX).then(|| rest + weight)
             });
             if let Some(least) = over.min()
-                && least < values[id as usize]
+                && least < W::of(values[id as usize])
                 && id != root
             {
-                values[id as usize] = least;
+                values[id as usize] = least.keep();
                 queue.push(Reverse((least, id)));
             }
         }
         while let Some(Reverse((value, id))) = queue.pop() {
-            if values[id as usize] != value {
+            if W::of(values[id as usize]) != value {
                 continue;
             }
             expanded += 1;
@@ -229,8 +229,8 @@ impl<W: Word> Distances<W> {
             }
             for (next, weight) in steps.from::<W>(id) {
                 let through = value + weight;
-                if through < values[next as usize] {
-                    values[next as usize] = through;
+                if through < W::of(values[next as usize]) {
+                    values[next as usize] = through.keep();
                     queue.push(Reverse((through, next)));
                 }
             }
@@ -253,7 +253,7 @@ impl<W: Word> Distances<W> {
 /// Spreads distances from what is open.
 #[inline]
 fn spread<W: Word>(
-    values: &mut [W],
+    values: &mut [W::Kept],
     problem: &GridProblem,
     open: &mut Buckets<W>,
     weigh: impl Fn(u32, u32, u32) -> W,
@@ -263,7 +263,7 @@ fn spread<W: Word>(
     let (layout, moves) = (*grid.layout(), problem.moves());
     let offsets = layout.offsets();
     while let Some((id, value)) = open.pop(W::MAX) {
-        if values[id as usize] != value {
+        if W::of(values[id as usize]) != value {
             continue;
         }
         if !cx.proceed() {
@@ -279,8 +279,8 @@ fn spread<W: Word>(
             legal &= legal - 1;
             let next = id.wrapping_add_signed(offsets[k as usize]);
             let through = value + weigh(id, next, k);
-            if through < values[next as usize] {
-                values[next as usize] = through;
+            if through < W::of(values[next as usize]) {
+                values[next as usize] = through.keep();
                 open.push(through, next, through);
             }
         }

@@ -40,7 +40,7 @@ pub(super) enum Way {
 /// partially known terrain*, 2014 (MPAA\*); the distance field and the treatment of freed cells are
 /// ours.
 #[derive(Clone, Debug)]
-pub(super) struct Guided<W: Copy> {
+pub(super) struct Guided<W: Word> {
     pub(super) distances: Distances<W>,
     search: Search<W>,
     route: Route<W>,
