@@ -29,6 +29,9 @@ pub enum Swept {
     TooFar,
 }
 
+/// Entries of scratch memory that are kept from one repair to the next.
+const KEPT: usize = 1 << 16;
+
 /// Memory that sweeps and repairs of any number of [`Distances`] share.
 #[derive(Clone, Debug, Default)]
 pub struct Sweeper<W: Copy + Ord> {
@@ -38,6 +41,14 @@ pub struct Sweeper<W: Copy + Ord> {
 }
 
 impl<W: Word> Sweeper<W> {
+    /// Empties it, and gives back what takes longer to fill than to ask for again.
+    fn shrink(&mut self) {
+        self.queue.clear();
+        self.queue.shrink_to(KEPT);
+        self.raised.clear();
+        self.raised.shrink_to(KEPT);
+    }
+
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -141,7 +152,7 @@ impl<W: Word> Distances<W> {
         }
         let steps = Steps::of(problem, weights);
         let end = self.mend(&steps, root, changed, most, sweeper, cx);
-        sweeper.queue.clear();
+        sweeper.shrink();
         if end == Swept::Whole {
             self.basis = Some((root, weights));
         }
@@ -365,10 +376,13 @@ mod tests {
         let cx = &mut Context::seeded(0);
         field.sweep(&problem, root, &mut Sweeper::default(), cx);
         let layout = *problem.grid().layout();
-        let mut way = Vec::new();
-        let end = field
-            .downhill(&problem)
-            .go(layout.id(from), |id| way.push(layout.cell(id)));
+        let mut way = vec![from];
+        let mut at = layout.id(from);
+        let downhill = field.downhill(&problem);
+        let end = downhill.go(at, |k| {
+            at = downhill.along(at, k);
+            way.push(layout.cell(at));
+        });
         assert_eq!((layout.cell(end), way.len()), (root, 9));
         assert!(problem.judge(&way).is_ok());
         problem.apply(&[GridChange::Blocked(vec![way[3]])]).unwrap();

@@ -44,22 +44,28 @@ impl<'d, W: Word> Downhill<'d, W> {
         None
     }
 
-    /// Goes down from an id and shows every id on the way, that one first. Returns the last: the
-    /// root, or where there is no way on.
+    /// The id one step away in a direction.
+    #[inline]
+    #[must_use]
+    pub fn along(&self, id: u32, k: u32) -> u32 {
+        id.wrapping_add_signed(self.steps.offsets[k as usize & 7])
+    }
+
+    /// Goes down from an id and shows the direction of every step. Returns the last id: the root,
+    /// or where there is no way on.
     #[inline]
     pub fn go(&self, from: u32, mut show: impl FnMut(u32)) -> u32 {
-        show(from);
         let Some((mut id, mut k)) = self.next(from, 0) else {
             return from;
         };
         let steps = &self.steps;
         let around = |id| steps.moves.legal(steps.grid.around_id(id));
         loop {
+            show(k);
             // Ways are straight for the most part: on as long as that leads down.
             let offset = steps.offsets[k as usize & 7];
             let mut left = W::of(self.values[id as usize]);
             loop {
-                show(id);
                 let next = id.wrapping_add_signed(offset);
                 if u32::from(around(id)) >> k & 1 == 0 {
                     break;
@@ -70,6 +76,7 @@ impl<'d, W: Word> Downhill<'d, W> {
                     break;
                 }
                 (id, left) = (next, rest);
+                show(k);
             }
             match self.next(id, k) {
                 Some(on) => (id, k) = on,

@@ -294,16 +294,17 @@ impl<W: Word> Search<W> {
         }
     }
 
-    /// The ids of the path on which the last search reached one, from there back to the start, each
-    /// with its weight. None if it did not.
-    pub fn back(&self, to: u32) -> impl Iterator<Item = (u32, W)> + '_ {
+    /// The steps of the path on which the last search reached an id, the last one first: the id each
+    /// goes from, the weight of that one, and the direction. None if it did not.
+    pub fn back(&self, to: u32) -> impl Iterator<Item = (u32, W, u32)> + '_ {
         let offsets = self.layout.map_or([0; 8], |layout| layout.offsets());
-        let first = self.weight(to).map(|g| (to, g));
-        std::iter::successors(first, move |&(id, _)| {
-            let arrivals = self.records[id as usize].arrivals;
-            let k = arrivals.trailing_zeros() as usize;
-            let from = id.wrapping_add_signed(-*offsets.get(k)?);
-            Some((from, W::of(self.records[from as usize].g)))
+        let mut at = self.weight(to).map(|_| to);
+        std::iter::from_fn(move || {
+            let arrivals = self.records[at? as usize].arrivals;
+            let k = arrivals.trailing_zeros();
+            let from = at?.wrapping_add_signed(-*offsets.get(k as usize)?);
+            at = Some(from);
+            Some((from, W::of(self.records[from as usize].g), k))
         })
     }
 

@@ -337,7 +337,7 @@ impl<W: Word> Guided<W> {
         let first = self.search.weight(at).unwrap_or_default();
         let left = self.whole - first;
         self.go_down(problem, at, left);
-        for (id, g) in self.search.back(at).skip(1) {
+        for (id, g, _) in self.search.back(at) {
             self.route.extend(id, layout.cell(id), self.whole - g);
         }
         Found::Path

@@ -2,6 +2,8 @@
 
 mod answer;
 mod basin;
+mod chain;
+mod freed;
 mod marks;
 mod patch;
 
