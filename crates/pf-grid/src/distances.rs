@@ -30,7 +30,7 @@ pub enum Swept {
 }
 
 /// Entries of scratch memory that are kept from one repair to the next.
-const KEPT: usize = 1 << 16;
+const KEPT: usize = 1 << 14;
 
 /// Memory that sweeps and repairs of any number of [`Distances`] share.
 #[derive(Clone, Debug, Default)]

@@ -192,7 +192,9 @@ mod tests {
         fn check<W: Word>() {
             let near = [W::default(), W::ONE, W::STRAIGHT, W::DIAGONAL];
             let far = [W::LIMIT, W::LIMIT + W::LIMIT, W::MAX - W::ONE, W::MAX];
-            let steps = (0..32).map(|bit| W::STRAIGHT.times(1 << bit)).filter(|&w| w < W::MAX);
+            let steps = (0..32)
+                .map(|bit| W::STRAIGHT.times(1 << bit))
+                .filter(|&w| w < W::MAX);
             for value in near.into_iter().chain(far).chain(steps) {
                 assert_eq!(W::of(value.keep()), value);
             }

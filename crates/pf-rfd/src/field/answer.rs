@@ -86,6 +86,10 @@ impl<W: Word> Basin<W> {
         let before = cx.stats().expanded;
         let (found, how) = self.find(problem, cx);
         self.debt += cx.stats().expanded - before;
+        self.spare.clear();
+        self.spare.shrink();
+        self.last.shrink();
+        self.marks.shrink();
         if matches!(found, Found::Path | Found::Nothing) {
             self.answered = Some((problem.start(), problem.goal()));
             if found == Found::Nothing {

@@ -255,9 +255,6 @@ impl<W: Word> Basin<W> {
         self.log.shrink_to(KEPT);
         self.debt = 0;
         self.sides.iter_mut().for_each(|side| side.refresh(0));
-        self.last.shrink();
-        self.spare.clear();
-        self.spare.shrink();
         // Memory that the next answer may want.
         let layout = problem.grid().layout();
         self.search.prepare(layout);

@@ -19,7 +19,6 @@ pub(super) struct Marks {
 impl Marks {
     /// Makes ready for a grid of so many ids, so that the next answers need not.
     pub(super) fn prepare(&mut self, len: usize) {
-        self.steps.shrink_to(KEPT);
         if self.marks.len() != len || self.round > LAST / 2 {
             self.wipe(len);
         }
@@ -31,6 +30,12 @@ impl Marks {
             self.wipe(len);
         }
         self.round += 1;
+    }
+
+    /// Gives back what is not worth keeping.
+    pub(super) fn shrink(&mut self) {
+        self.steps.clear();
+        self.steps.shrink_to(KEPT);
     }
 
     fn wipe(&mut self, len: usize) {
@@ -76,5 +81,40 @@ impl Marks {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         self.marks.capacity() + self.steps.capacity()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pf_core::{Context, Problem};
+    use pf_grid::{Cell, Distances, Grid, GridChange, GridProblem, Sweeper};
+
+    /// As many rounds later as fit a mark, a cell has the mark again that it had.
+    #[test]
+    fn what_was_found_out_in_one_round_does_not_hold_in_another() {
+        let (root, far, middle) = (Cell::new(0, 0), Cell::new(8, 0), Cell::new(4, 0));
+        let problem = GridProblem::new(Grid::open(9, 1).unwrap(), far, root);
+        let mut problem = problem.unwrap();
+        let mut field = Distances::<u32>::default();
+        let cx = &mut Context::seeded(0);
+        field.sweep(&problem, root, &mut Sweeper::default(), cx);
+        let layout = *problem.grid().layout();
+        let mut marks = Marks::default();
+        for is_free in [true, false, false, true, true] {
+            let change = if is_free {
+                GridChange::Freed
+            } else {
+                GridChange::Blocked
+            };
+            problem.apply(&[change(vec![middle])]).unwrap();
+            let downhill = field.downhill(&problem);
+            marks.clear(layout.len());
+            for (from, holds) in [(far, is_free), (middle, is_free), (root, true)] {
+                let is_intact = marks.is_intact(&downhill, layout.id(from), layout.id(root));
+                assert_eq!(is_intact, holds, "{from:?}");
+            }
+            (1..LAST).for_each(|_| marks.clear(layout.len()));
+        }
     }
 }

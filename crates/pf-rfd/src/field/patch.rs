@@ -120,11 +120,7 @@ impl<W: Word> Patch<W> {
             backwards = !backwards;
             let count = self.freed.cells.len();
             for k in 0..count {
-                let k = if backwards {
-                    count - 1 - k
-                } else {
-                    k
-                };
+                let k = if backwards { count - 1 - k } else { k };
                 let (id, mut least) = self.freed.cells[k];
                 for (next, weight) in sight.steps(id) {
                     let rest = self.left(goals, next);
