@@ -101,8 +101,8 @@ word!(u128, 1_746_860_020_068_409, 2_470_433_131_948_081);
 
 /// Forty-eight bits: computed with as sixty-four, six bytes in arrays.
 ///
-/// It orders paths of up to 9.3 million cells, which is every path on a grid of 4096 x 4096
-/// without terrain.
+/// It orders paths of up to 9.3 million straight steps, such as one up and down every other row of
+/// 4096 x 4096 cells.
 ///
 /// ```
 /// use pf_grid::{U48, Word};

@@ -10,7 +10,7 @@ const LAST: u8 = u8::MAX / 2;
 #[derive(Clone, Debug, Default)]
 pub(super) struct Marks {
     /// Twice the round, and one if the way is intact. Those of other rounds say nothing.
-    marks: Vec<u8>,
+    cells: Vec<u8>,
     round: u8,
     /// Scratch: the directions of the way down from a cell.
     steps: Vec<u8>,
@@ -19,14 +19,14 @@ pub(super) struct Marks {
 impl Marks {
     /// Makes ready for a grid of so many ids, so that the next answers need not.
     pub(super) fn prepare(&mut self, len: usize) {
-        if self.marks.len() != len || self.round > LAST / 2 {
+        if self.cells.len() != len || self.round > LAST / 2 {
             self.wipe(len);
         }
     }
 
     /// Forgets all, for a grid of so many ids.
     pub(super) fn clear(&mut self, len: usize) {
-        if self.marks.len() != len || self.round == LAST {
+        if self.cells.len() != len || self.round == LAST {
             self.wipe(len);
         }
         self.round += 1;
@@ -39,8 +39,8 @@ impl Marks {
     }
 
     fn wipe(&mut self, len: usize) {
-        self.marks.clear();
-        self.marks.resize(len, 0);
+        self.cells.clear();
+        self.cells.resize(len, 0);
         self.round = 0;
     }
 
@@ -55,7 +55,7 @@ impl Marks {
         self.steps.clear();
         let (mut id, mut ahead) = (from, 0);
         let is_intact = loop {
-            let mark = self.marks[id as usize];
+            let mark = self.cells[id as usize];
             if mark >> 1 == self.round {
                 break mark & 1 == 1;
             }
@@ -69,10 +69,10 @@ impl Marks {
             self.steps.push(ahead as u8);
         };
         let mark = self.round << 1 | u8::from(is_intact);
-        self.marks[id as usize] = mark;
+        self.cells[id as usize] = mark;
         let mut id = from;
         for &step in &self.steps {
-            self.marks[id as usize] = mark;
+            self.cells[id as usize] = mark;
             id = downhill.along(id, step.into());
         }
         is_intact
@@ -80,7 +80,7 @@ impl Marks {
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.marks.capacity() + self.steps.capacity()
+        self.cells.capacity() + self.steps.capacity()
     }
 }
 
