@@ -166,19 +166,34 @@ fn the_choice_is_exact_where_it_keeps_its_path() {
 }
 
 /// Every other row is a wall with a gap at alternating ends.
-fn serpentine(side: u32) -> GridProblem {
+fn serpentine(side: u32, cost: u8) -> GridProblem {
     let grid = Grid::new(side, side, |cell| {
         let gap = if cell.y % 4 == 1 { side - 1 } else { 0 };
-        u8::from(cell.y % 2 == 0 || cell.x == gap)
+        cost * u8::from(cell.y % 2 == 0 || cell.x == gap)
     });
     let last = Cell::new(side - 1, side - 2);
     GridProblem::new(grid.unwrap(), Cell::new(0, 0), last).unwrap()
 }
 
+/// Terrain so dear that paths are too long for 48 bits.
+#[test]
+fn long_paths_over_dear_terrain_are_exact() {
+    let problem = serpentine(320, 200);
+    let expected = oracle(&problem);
+    let (mut astar, mut dijkstra) = (AStar::default(), Dijkstra::default());
+    let planners: [&mut dyn Planner<GridProblem>; 2] = [&mut astar, &mut dijkstra];
+    for planner in planners {
+        let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        assert_eq!(proven(&problem, &report), expected, "{}", planner.name());
+    }
+    // Ten bytes a cell and no more would be 48 bits.
+    assert!(astar.bytes() > 12 * 320 * 320 && dijkstra.bytes() > 12 * 320 * 320);
+}
+
 /// Paths too long for 32 bits to order: every search must notice and count wider.
 #[test]
 fn long_paths_are_exact() {
-    let mut problem = serpentine(320);
+    let mut problem = serpentine(320, 1);
     let expected = oracle(&problem);
     assert!(expected.unwrap().value() > 50_000.0);
     let mut dstar = DStarLite::default();

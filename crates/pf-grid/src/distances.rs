@@ -8,10 +8,10 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 ///
 /// Unlike a [`DistanceField`](crate::DistanceField), which knows what one start needs, they are
 /// exact everywhere once made, and stay so through [`repair`](Self::repair). Four bytes a cell in
-/// 32 bits. The root's distance is 0 even where the root is blocked; nothing leads on from it then.
+/// 32 bits, six in [`U48`](crate::U48). The root's distance is 0 even where the root is blocked; nothing leads on from it then.
 #[derive(Clone, Debug, Default)]
-pub struct Distances<W> {
-    values: Vec<W>,
+pub struct Distances<W: Word> {
+    values: Vec<W::Kept>,
     layout: Option<Layout>,
     basis: Option<(Cell, Weights)>,
 }
@@ -29,6 +29,9 @@ pub enum Swept {
     TooFar,
 }
 
+/// Entries of scratch memory that are kept from one repair to the next.
+const KEPT: usize = 1 << 14;
+
 /// Memory that sweeps and repairs of any number of [`Distances`] share.
 #[derive(Clone, Debug, Default)]
 pub struct Sweeper<W: Copy + Ord> {
@@ -38,6 +41,14 @@ pub struct Sweeper<W: Copy + Ord> {
 }
 
 impl<W: Word> Sweeper<W> {
+    /// Empties it, and gives back what takes longer to fill than to ask for again.
+    fn shrink(&mut self) {
+        self.queue.clear();
+        self.queue.shrink_to(KEPT);
+        self.raised.clear();
+        self.raised.shrink_to(KEPT);
+    }
+
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
@@ -64,7 +75,7 @@ impl<W: Word> Distances<W> {
     #[inline]
     #[must_use]
     pub fn at(&self, id: u32) -> W {
-        self.values[id as usize]
+        W::of(self.values[id as usize])
     }
 
     /// Gives them up; the memory stays.
@@ -75,7 +86,7 @@ impl<W: Word> Distances<W> {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.values.capacity() * size_of::<W>()
+        self.values.capacity() * size_of::<W::Kept>()
     }
 
     /// Makes them anew: one expansion for every cell that the root can be reached from.
@@ -94,10 +105,10 @@ impl<W: Word> Distances<W> {
         self.layout = Some(layout);
         self.basis = None;
         self.values.clear();
-        self.values.resize(layout.len(), W::MAX);
+        self.values.resize(layout.len(), W::MAX.keep());
         let weights = Weights::of(grid);
         let id = layout.id(root);
-        self.values[id as usize] = W::default();
+        self.values[id as usize] = W::default().keep();
         let open = &mut sweeper.open;
         open.reset(W::default(), weights.reach(), weights.shift::<W>());
         if grid.is_free(root) {
@@ -107,10 +118,10 @@ impl<W: Word> Distances<W> {
             let weigh = |_, _, k| {
                 if k < 4 { W::STRAIGHT } else { W::DIAGONAL }
             };
-            spread(&mut self.values, problem, open, weigh, cx)
+            spread::<W>(&mut self.values, problem, open, weigh, cx)
         } else {
             let weigh = |from, to, k| weights.step(grid, from, to, k);
-            spread(&mut self.values, problem, open, weigh, cx)
+            spread::<W>(&mut self.values, problem, open, weigh, cx)
         };
         if end == Swept::Whole {
             self.basis = Some((root, weights));
@@ -141,7 +152,7 @@ impl<W: Word> Distances<W> {
         }
         let steps = Steps::of(problem, weights);
         let end = self.mend(&steps, root, changed, most, sweeper, cx);
-        sweeper.queue.clear();
+        sweeper.shrink();
         if end == Swept::Whole {
             self.basis = Some((root, weights));
         }
@@ -167,15 +178,15 @@ impl<W: Word> Distances<W> {
         };
         queue.clear();
         raised.clear();
-        let known = near().map(|id| (values[id as usize], id));
+        let known = near().map(|id| (W::of(values[id as usize]), id));
         queue.extend(known.filter(|&(value, _)| value < W::MAX).map(Reverse));
         let mut expanded = 0;
         while let Some(Reverse((value, id))) = queue.pop() {
-            if id == root || values[id as usize] == W::MAX {
+            if id == root || W::of(values[id as usize]) == W::MAX {
                 continue;
             }
             let leads = |(next, weight)| {
-                let rest: W = values[next as usize];
+                let rest = W::of(values[next as usize]);
                 rest < value && rest + weight <= value
             };
             if steps.from(id).any(leads) {
@@ -189,11 +200,11 @@ impl<W: Word> Distances<W> {
                 return Swept::Cut;
             }
             cx.expanded(|| steps.layout.cell(id));
-            values[id as usize] = W::MAX;
+            values[id as usize] = W::MAX.keep();
             raised.push(id);
             // Whose step was legal and is not, or weighs something else, is near a change.
             for (next, weight) in steps.from::<W>(id) {
-                let theirs = values[next as usize];
+                let theirs = W::of(values[next as usize]);
                 if theirs < W::MAX && theirs == value + weight {
                     queue.push(Reverse((theirs, next)));
                 }
@@ -201,19 +212,19 @@ impl<W: Word> Distances<W> {
         }
         for id in near().chain(raised.iter().copied()) {
             let over = steps.from::<W>(id).filter_map(|(next, weight)| {
-                let rest = values[next as usize];
+                let rest = W::of(values[next as usize]);
                 (rest < W::MAX).then(|| rest + weight)
             });
             if let Some(least) = over.min()
-                && least < values[id as usize]
+                && least < W::of(values[id as usize])
                 && id != root
             {
-                values[id as usize] = least;
+                values[id as usize] = least.keep();
                 queue.push(Reverse((least, id)));
             }
         }
         while let Some(Reverse((value, id))) = queue.pop() {
-            if values[id as usize] != value {
+            if W::of(values[id as usize]) != value {
                 continue;
             }
             expanded += 1;
@@ -229,8 +240,8 @@ impl<W: Word> Distances<W> {
             }
             for (next, weight) in steps.from::<W>(id) {
                 let through = value + weight;
-                if through < values[next as usize] {
-                    values[next as usize] = through;
+                if through < W::of(values[next as usize]) {
+                    values[next as usize] = through.keep();
                     queue.push(Reverse((through, next)));
                 }
             }
@@ -253,7 +264,7 @@ impl<W: Word> Distances<W> {
 /// Spreads distances from what is open.
 #[inline]
 fn spread<W: Word>(
-    values: &mut [W],
+    values: &mut [W::Kept],
     problem: &GridProblem,
     open: &mut Buckets<W>,
     weigh: impl Fn(u32, u32, u32) -> W,
@@ -263,7 +274,7 @@ fn spread<W: Word>(
     let (layout, moves) = (*grid.layout(), problem.moves());
     let offsets = layout.offsets();
     while let Some((id, value)) = open.pop(W::MAX) {
-        if values[id as usize] != value {
+        if W::of(values[id as usize]) != value {
             continue;
         }
         if !cx.proceed() {
@@ -279,8 +290,8 @@ fn spread<W: Word>(
             legal &= legal - 1;
             let next = id.wrapping_add_signed(offsets[k as usize]);
             let through = value + weigh(id, next, k);
-            if through < values[next as usize] {
-                values[next as usize] = through;
+            if through < W::of(values[next as usize]) {
+                values[next as usize] = through.keep();
                 open.push(through, next, through);
             }
         }
@@ -365,10 +376,13 @@ mod tests {
         let cx = &mut Context::seeded(0);
         field.sweep(&problem, root, &mut Sweeper::default(), cx);
         let layout = *problem.grid().layout();
-        let mut way = Vec::new();
-        let end = field
-            .downhill(&problem)
-            .go(layout.id(from), |id| way.push(layout.cell(id)));
+        let mut way = vec![from];
+        let mut at = layout.id(from);
+        let downhill = field.downhill(&problem);
+        let end = downhill.go(at, |k| {
+            at = downhill.along(at, k);
+            way.push(layout.cell(at));
+        });
         assert_eq!((layout.cell(end), way.len()), (root, 9));
         assert!(problem.judge(&way).is_ok());
         problem.apply(&[GridChange::Blocked(vec![way[3]])]).unwrap();

@@ -4,13 +4,13 @@ use crate::{Grid, GridProblem, Layout, Moves, Weights, Word};
 
 /// See [`Distances::downhill`](crate::Distances::downhill).
 #[derive(Debug)]
-pub struct Downhill<'d, W> {
-    values: &'d [W],
+pub struct Downhill<'d, W: Word> {
+    values: &'d [W::Kept],
     steps: Steps<'d>,
 }
 
 impl<'d, W: Word> Downhill<'d, W> {
-    pub(crate) fn of(values: &'d [W], steps: Steps<'d>) -> Self {
+    pub(crate) fn of(values: &'d [W::Kept], steps: Steps<'d>) -> Self {
         Self { values, steps }
     }
 
@@ -20,11 +20,11 @@ impl<'d, W: Word> Downhill<'d, W> {
     #[inline]
     #[must_use]
     pub fn next(&self, id: u32, ahead: u32) -> Option<(u32, u32)> {
-        let left = self.values[id as usize];
+        let left = W::of(self.values[id as usize]);
         let legal = self.steps.legal(id);
         let leads = |k: u32| {
             let next = id.wrapping_add_signed(self.steps.offsets[k as usize & 7]);
-            let rest = self.values[next as usize];
+            let rest = W::of(self.values[next as usize]);
             let weight: W = self.steps.weights.step(self.steps.grid, id, next, k);
             (rest < left && rest + weight == left).then_some((next, k))
         };
@@ -44,32 +44,39 @@ impl<'d, W: Word> Downhill<'d, W> {
         None
     }
 
-    /// Goes down from an id and shows every id on the way, that one first. Returns the last: the
-    /// root, or where there is no way on.
+    /// The id one step away in a direction.
+    #[inline]
+    #[must_use]
+    pub fn along(&self, id: u32, k: u32) -> u32 {
+        id.wrapping_add_signed(self.steps.offsets[k as usize & 7])
+    }
+
+    /// Goes down from an id and shows the direction of every step. Returns the last id: the root,
+    /// or where there is no way on.
     #[inline]
     pub fn go(&self, from: u32, mut show: impl FnMut(u32)) -> u32 {
-        show(from);
         let Some((mut id, mut k)) = self.next(from, 0) else {
             return from;
         };
         let steps = &self.steps;
         let around = |id| steps.moves.legal(steps.grid.around_id(id));
         loop {
+            show(k);
             // Ways are straight for the most part: on as long as that leads down.
             let offset = steps.offsets[k as usize & 7];
-            let mut left = self.values[id as usize];
+            let mut left = W::of(self.values[id as usize]);
             loop {
-                show(id);
                 let next = id.wrapping_add_signed(offset);
                 if u32::from(around(id)) >> k & 1 == 0 {
                     break;
                 }
-                let rest = self.values[next as usize];
+                let rest = W::of(self.values[next as usize]);
                 let weight: W = steps.weights.step(steps.grid, id, next, k);
                 if rest >= left || rest + weight != left {
                     break;
                 }
                 (id, left) = (next, rest);
+                show(k);
             }
             match self.next(id, k) {
                 Some(on) => (id, k) = on,

@@ -1,11 +1,11 @@
-use crate::{Cell, End, GridProblem, Layout, Search, Weights, Word};
+use crate::{Cell, End, GridProblem, Layout, Search, U48, Weights, Word};
 use pf_core::Context;
 
 /// A [`Search`] from start to goal in the narrowest word that orders its paths exactly.
 ///
 /// It begins in 32 bits; where a path turns out to be longer than they can order (some 47,000
-/// cells, less with terrain), the query is searched again in 64, then in 128, and later queries on
-/// a grid of that shape begin there. Only one width is kept in memory.
+/// cells, less with terrain), the query is searched again in 48, in 64, then in 128, and later
+/// queries on a grid of that shape begin there. Only one width is kept in memory.
 #[derive(Clone, Debug)]
 pub struct ExactSearch {
     width: Width,
@@ -15,7 +15,8 @@ pub struct ExactSearch {
 #[derive(Clone, Debug)]
 enum Width {
     Narrow(Search<u32>),
-    Wide(Search<u64>),
+    Wide(Search<U48>),
+    Wider(Search<u64>),
     Huge(Search<u128>),
 }
 
@@ -57,6 +58,7 @@ impl ExactSearch {
             let found = match &mut self.width {
                 Width::Narrow(search) => find(search, problem, guided, cx),
                 Width::Wide(search) => find(search, problem, guided, cx),
+                Width::Wider(search) => find(search, problem, guided, cx),
                 Width::Huge(search) => find(search, problem, guided, cx),
             };
             match found {
@@ -73,6 +75,7 @@ impl ExactSearch {
         match &self.width {
             Width::Narrow(search) => search.nearest(to),
             Width::Wide(search) => search.nearest(to),
+            Width::Wider(search) => search.nearest(to),
             Width::Huge(search) => search.nearest(to),
         }
     }
@@ -83,18 +86,17 @@ impl ExactSearch {
         match &self.width {
             Width::Narrow(search) => search.bytes(),
             Width::Wide(search) => search.bytes(),
+            Width::Wider(search) => search.bytes(),
             Width::Huge(search) => search.bytes(),
         }
     }
 
     fn widen(&mut self) {
-        // The old memory goes before the new comes.
-        let narrow = matches!(self.width, Width::Narrow(_));
-        self.width = Width::Narrow(Search::default());
-        self.width = if narrow {
-            Width::Wide(Search::default())
-        } else {
-            Width::Huge(Search::default())
+        // The old memory goes before the new comes, as that comes with use.
+        self.width = match self.width {
+            Width::Narrow(_) => Width::Wide(Search::default()),
+            Width::Wide(_) => Width::Wider(Search::default()),
+            Width::Wider(_) | Width::Huge(_) => Width::Huge(Search::default()),
         };
     }
 }

@@ -42,4 +42,4 @@ pub use route::Route;
 pub use search::{End, Search};
 pub use swarm::{Chances, Draw, Ended, Medium, Swarm, SwarmRules, Visited, Walk};
 pub use weights::{Apart, Weights};
-pub use word::Word;
+pub use word::{U48, Word};

@@ -6,13 +6,13 @@ use crate::{
 };
 use pf_core::Context;
 
-/// What a search knows of a cell. Twelve bytes for [`u64`] instead of sixteen: on large maps
-/// memory traffic is what a search waits for.
+/// What a search knows of a cell. Twelve bytes for [`u64`] instead of sixteen, ten for
+/// [`U48`](crate::U48): on large maps memory traffic is what a search waits for.
 #[derive(Clone, Copy, Debug, Default)]
 #[repr(C, packed(4))]
-struct Record<W> {
-    /// Least weight found from the start.
-    g: W,
+struct Record<K> {
+    /// Least weight found from the start, as a [`Word`] is kept.
+    g: K,
     /// The search this belongs to; others are as good as never written.
     generation: u16,
     /// The set of directions in which the cell was reached at weight `g`.
@@ -43,8 +43,8 @@ pub enum End<W> {
 /// A cell may be expanded more than once, as the open list orders buckets and not keys; the search
 /// goes on until no bucket is left that could hold a better path to the goal.
 #[derive(Clone, Debug, Default)]
-pub struct Search<W: Copy> {
-    records: Vec<Record<W>>,
+pub struct Search<W: Word> {
+    records: Vec<Record<W::Kept>>,
     generation: u16,
     open: Buckets<W>,
     layout: Option<Layout>,
@@ -124,7 +124,7 @@ impl<W: Word> Search<W> {
                 && known.is_none_or(|known| g < known)
             {
                 self.records[id as usize] = Record {
-                    g,
+                    g: g.keep(),
                     generation: self.generation,
                     arrivals: 0,
                     closed: false,
@@ -184,7 +184,7 @@ impl<W: Word> Search<W> {
         let mut beyond = false;
         while let Some((id, g)) = self.open.pop(bound) {
             let record = &mut self.records[id as usize];
-            if record.closed || { record.g } != g {
+            if record.closed || W::of(record.g) != g {
                 continue;
             }
             if !cx.proceed() {
@@ -211,7 +211,7 @@ impl<W: Word> Search<W> {
                 let next_g = g + steps.weight(id, next, k);
                 let record = &mut self.records[next as usize];
                 let arrival = 1 << k;
-                let known = record.g;
+                let known = W::of(record.g);
                 if record.generation == generation && next_g >= known {
                     if next_g > known || record.arrivals & arrival != 0 || !S::CANONICAL {
                         continue;
@@ -228,7 +228,7 @@ impl<W: Word> Search<W> {
                     record.closed = false;
                 } else {
                     *record = Record {
-                        g: next_g,
+                        g: next_g.keep(),
                         generation,
                         arrivals: arrival,
                         closed: false,
@@ -265,7 +265,7 @@ impl<W: Word> Search<W> {
     #[must_use]
     pub fn weight(&self, id: u32) -> Option<W> {
         let record = self.records.get(id as usize)?;
-        (record.generation == self.generation).then_some(record.g)
+        (record.generation == self.generation).then(|| W::of(record.g))
     }
 
     /// The path on which the last search reached `to`, the start first; empty if it did not. Of
@@ -294,16 +294,17 @@ impl<W: Word> Search<W> {
         }
     }
 
-    /// The ids of the path on which the last search reached one, from there back to the start, each
-    /// with its weight. None if it did not.
-    pub fn back(&self, to: u32) -> impl Iterator<Item = (u32, W)> + '_ {
+    /// The steps of the path on which the last search reached an id, the last one first: the id each
+    /// goes from, the weight of that one, and the direction. None if it did not.
+    pub fn back(&self, to: u32) -> impl Iterator<Item = (u32, W, u32)> + '_ {
         let offsets = self.layout.map_or([0; 8], |layout| layout.offsets());
-        let first = self.weight(to).map(|g| (to, g));
-        std::iter::successors(first, move |&(id, _)| {
-            let arrivals = self.records[id as usize].arrivals;
-            let k = arrivals.trailing_zeros() as usize;
-            let from = id.wrapping_add_signed(-*offsets.get(k)?);
-            Some((from, self.records[from as usize].g))
+        let mut at = self.weight(to).map(|_| to);
+        std::iter::from_fn(move || {
+            let arrivals = self.records[at? as usize].arrivals;
+            let k = arrivals.trailing_zeros();
+            let from = at?.wrapping_add_signed(-*offsets.get(k as usize)?);
+            at = Some(from);
+            Some((from, W::of(self.records[from as usize].g), k))
         })
     }
 
@@ -319,11 +320,11 @@ impl<W: Word> Search<W> {
         let record = self.records[id as usize];
         let reached = record.generation == self.generation;
         if whole == W::MAX {
-            return (if reached { record.g } else { W::MAX }, true);
+            return (if reached { W::of(record.g) } else { W::MAX }, true);
         }
         // Every cell over which a path was shorter than the whole was expanded at its least weight.
-        if reached && record.closed && record.g + to_goal <= whole {
-            return (record.g, true);
+        if reached && record.closed && W::of(record.g) + to_goal <= whole {
+            return (W::of(record.g), true);
         }
         let over = whole.max(to_goal) - to_goal;
         (to_start.max(over), false)
@@ -368,7 +369,7 @@ impl<W: Word> Search<W> {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.records.capacity() * size_of::<Record<W>>() + self.open.bytes()
+        self.records.capacity() * size_of::<Record<W::Kept>>() + self.open.bytes()
     }
 }
 

@@ -83,7 +83,12 @@ fn some_problem(rng: &mut PlanRng, story: u32) -> GridProblem {
         1 => Kind::Maze,
         kind => {
             let size = rng.random_range(size);
-            let dearest = if terrain { 4 } else { 1 };
+            // The dearest alleys take more than 32 bits.
+            let dearest = match story % 6 {
+                2 => 4,
+                5 => 254,
+                _ => 1,
+            };
             let grid = if kind == 2 { mosaic } else { alley }(rng, size, dearest);
             let (start, goal) = (free_cell(rng, &grid), free_cell(rng, &grid));
             return GridProblem::new(grid, start, goal)
@@ -223,53 +228,85 @@ fn ten_thousand_answers_of_fields_settled_now_and_then_or_never_are_the_best() {
     often(&ways, &[("kept", 500), ("searched", 200), ("afresh", 1000)]);
 }
 
-#[test]
-fn it_takes_less_than_24_bytes_a_cell() {
-    let mut problem = GridProblem::new(
-        Grid::open(400, 400).unwrap(),
-        Cell::new(3, 3),
-        Cell::new(390, 380),
-    )
-    .unwrap();
-    let mut planner = RfdField::default();
-    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
-    for changes in [
-        GridChange::Blocked((0..300).map(|y| Cell::new(200, 50 + y)).collect()),
-        GridChange::Freed((0..100).map(|y| Cell::new(200, 100 + y)).collect()),
-        GridChange::StartMoved(Cell::new(9, 300)),
-    ] {
-        planner.settle(&problem, &mut Context::seeded(0));
-        let changes = [changes];
-        let revision = problem.revise(&changes).unwrap();
-        let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-        assert_eq!(proven(&problem, &report), oracle(&problem));
-        assert!(planner.bytes() < 24 * 400 * 400, "{}", planner.bytes());
-    }
-}
-
-/// Paths too long for 32 bits to order: every other row is a wall with a gap at alternate ends.
-#[test]
-fn long_paths_are_exact() {
-    let side = 320;
+/// Every other row is a wall with a gap at alternate ends: from corner to corner through half the
+/// cells, each of which costs so much.
+fn serpentine(side: u32, cost: u8) -> GridProblem {
     let grid = Grid::new(side, side, |cell| {
         let gap = if cell.y % 4 == 1 { side - 1 } else { 0 };
-        u8::from(cell.y % 2 == 0 || cell.x == gap)
+        cost * u8::from(cell.y % 2 == 0 || cell.x == gap)
     });
     let last = Cell::new(side - 1, side - 2);
-    let mut problem = GridProblem::new(grid.unwrap(), Cell::new(0, 0), last).unwrap();
+    GridProblem::new(grid.unwrap(), Cell::new(0, 0), last).unwrap()
+}
+
+/// The most bytes a cell that it holds between calls, where it settles before each event.
+#[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
+fn bytes_a_cell(problem: &mut GridProblem, events: &[GridChange]) -> f64 {
     let mut planner = RfdField::default();
-    let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
-    assert_eq!(proven(&problem, &report), oracle(&problem));
-    for changes in [
-        GridChange::Freed(vec![Cell::new(160, 1)]),
-        GridChange::Blocked(vec![Cell::new(160, 1)]),
-        GridChange::CostChanged((0..300).map(|x| Cell::new(x, 160)).collect(), 200),
-        GridChange::Blocked(vec![Cell::new(7, 300)]),
-    ] {
-        planner.settle(&problem, &mut Context::seeded(0));
-        let changes = [changes];
-        let revision = problem.revise(&changes).unwrap();
+    let report = planner.plan(problem, &mut Context::seeded(0)).unwrap();
+    assert_eq!(proven(problem, &report), oracle(problem));
+    let mut most = planner.bytes();
+    for event in events {
+        planner.settle(problem, &mut Context::seeded(0));
+        most = planner.bytes().max(most);
+        let revision = problem.revise(std::slice::from_ref(event)).unwrap();
         let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+        assert_eq!(proven(problem, &report), oracle(problem));
+        most = planner.bytes().max(most);
+    }
+    most as f64 / f64::from(problem.grid().width() * problem.grid().height())
+}
+
+#[test]
+fn it_takes_less_than_18_and_24_bytes_a_cell() {
+    let open = Grid::open(1024, 1024).unwrap();
+    let ends = [Cell::new(3, 3), Cell::new(1000, 980)];
+    let events = [
+        GridChange::Blocked((0..900).map(|y| Cell::new(500, 50 + y)).collect()),
+        GridChange::Freed((0..100).map(|y| Cell::new(500, 100 + y)).collect()),
+        GridChange::StartMoved(Cell::new(9, 300)),
+    ];
+    let mut open = GridProblem::new(open, ends[0], ends[1]).unwrap();
+    let bytes = bytes_a_cell(&mut open, &events);
+    assert!(bytes < 18.0, "{bytes}");
+    // The path is half a million cells long, and needs more than 32 bits.
+    let events = [
+        GridChange::Freed(vec![Cell::new(500, 1)]),
+        GridChange::Blocked(vec![Cell::new(500, 1)]),
+        GridChange::Freed((0..40).map(|x| Cell::new(500 + x, 501)).collect()),
+        GridChange::Blocked((0..40).map(|x| Cell::new(500 + x, 501)).collect()),
+        GridChange::StartMoved(Cell::new(500, 500)),
+        GridChange::Blocked(vec![Cell::new(7, 900)]),
+        GridChange::Freed(vec![Cell::new(7, 900)]),
+    ];
+    let bytes = bytes_a_cell(&mut serpentine(1024, 1), &events);
+    assert!((23.0..24.0).contains(&bytes), "{bytes}");
+}
+
+/// Paths too long for 32 bits to order, and with terrain for 48.
+#[test]
+#[expect(clippy::cast_precision_loss, reason = "far below 2^53")]
+fn long_paths_are_exact() {
+    for (cost, bytes) in [(1, 23.0..25.0), (200, 29.0..31.0)] {
+        let mut problem = serpentine(320, cost);
+        let mut planner = RfdField::default();
+        let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
         assert_eq!(proven(&problem, &report), oracle(&problem));
+        planner.settle(&problem, &mut Context::seeded(0));
+        // Which says how wide the word is.
+        let bytes_a_cell = planner.bytes() as f64 / 320.0 / 320.0;
+        assert!(bytes.contains(&bytes_a_cell), "{bytes_a_cell}");
+        for changes in [
+            GridChange::Freed(vec![Cell::new(160, 1)]),
+            GridChange::Blocked(vec![Cell::new(160, 1)]),
+            GridChange::CostChanged((0..300).map(|x| Cell::new(x, 160)).collect(), 200),
+            GridChange::Blocked(vec![Cell::new(7, 300)]),
+        ] {
+            planner.settle(&problem, &mut Context::seeded(0));
+            let changes = [changes];
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            assert_eq!(proven(&problem, &report), oracle(&problem));
+        }
     }
 }

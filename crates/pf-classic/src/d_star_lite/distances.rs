@@ -9,7 +9,7 @@ use pf_grid::{Cell, DistanceField, End, GridProblem, Layout, Search, Upkeep, Wei
 /// repaired. A [`DistanceField`] can, and takes twice as long to make: it is made where repairs
 /// are due.
 #[derive(Clone, Debug)]
-pub(super) struct Distances<W: Copy> {
+pub(super) struct Distances<W: Word> {
     layout: Option<Layout>,
     /// Rooted at the goal.
     search: Search<W>,

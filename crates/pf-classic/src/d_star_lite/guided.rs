@@ -40,7 +40,7 @@ pub(super) enum Way {
 /// partially known terrain*, 2014 (MPAA\*); the distance field and the treatment of freed cells are
 /// ours.
 #[derive(Clone, Debug)]
-pub(super) struct Guided<W: Copy> {
+pub(super) struct Guided<W: Word> {
     pub(super) distances: Distances<W>,
     search: Search<W>,
     route: Route<W>,
@@ -337,7 +337,7 @@ impl<W: Word> Guided<W> {
         let first = self.search.weight(at).unwrap_or_default();
         let left = self.whole - first;
         self.go_down(problem, at, left);
-        for (id, g) in self.search.back(at).skip(1) {
+        for (id, g, _) in self.search.back(at) {
             self.route.extend(id, layout.cell(id), self.whole - g);
         }
         Found::Path

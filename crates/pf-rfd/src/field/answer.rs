@@ -2,6 +2,7 @@
 
 use super::{
     basin::{Basin, Found, Side},
+    chain::Chain,
     patch::Sight,
 };
 use pf_core::{Context, Problem};
@@ -85,6 +86,10 @@ impl<W: Word> Basin<W> {
         let before = cx.stats().expanded;
         let (found, how) = self.find(problem, cx);
         self.debt += cx.stats().expanded - before;
+        self.spare.clear();
+        self.spare.shrink();
+        self.last.shrink();
+        self.marks.shrink();
         if matches!(found, Found::Path | Found::Nothing) {
             self.answered = Some((problem.start(), problem.goal()));
             if found == Found::Nothing {
@@ -103,7 +108,7 @@ impl<W: Word> Basin<W> {
             return (found, How::Kept);
         }
         if self.is_last_still_best(problem) {
-            let found = if self.last.is_empty() {
+            let found = if self.last.is_none() {
                 Found::Nothing
             } else {
                 Found::Path
@@ -156,14 +161,14 @@ impl<W: Word> Basin<W> {
                 }
                 continue;
             }
-            self.spare.clear();
             let spare = &mut self.spare;
+            spare.begin(way.from);
             let downhill = side.field.downhill(problem);
-            let end = downhill.go(way.from, |id| spare.push(id));
+            let end = downhill.go(way.from, |k| spare.push(k));
             way.holds = way.whole - side.field.at(end);
             if end == way.root {
                 if is_proof {
-                    self.accept(way.is_backward);
+                    self.accept(problem, way.is_backward);
                     return (Some(Found::Path), None);
                 }
                 return (None, Some(*way));
@@ -173,9 +178,9 @@ impl<W: Word> Basin<W> {
     }
 
     /// The way that `spare` holds becomes the answer.
-    fn accept(&mut self, is_backward: bool) {
+    fn accept(&mut self, problem: &GridProblem, is_backward: bool) {
         if is_backward {
-            self.spare.reverse();
+            self.spare.turn(problem.grid().layout().id(problem.start()));
         }
         std::mem::swap(&mut self.last, &mut self.spare);
     }
@@ -189,14 +194,13 @@ impl<W: Word> Basin<W> {
         if goal != problem.goal() {
             return false;
         }
-        if self.last.is_empty() {
+        if self.last.is_none() {
             return start == problem.start();
         }
-        let from = problem.grid().layout().id(problem.start());
-        let Some(at) = self.last.iter().position(|&id| id == from) else {
+        let layout = problem.grid().layout();
+        if !self.last.begin_at(layout.id(problem.start()), layout) {
             return false;
-        };
-        self.last.drain(..at);
+        }
         if problem.judge(&self.path(problem)).is_ok() {
             return true;
         }
@@ -231,7 +235,7 @@ impl<W: Word> Basin<W> {
             End::TooFar => Some((Found::TooFar, How::Patched)),
             End::Exhausted => Some(match intact {
                 Some(way) => {
-                    self.accept(way.is_backward);
+                    self.accept(problem, way.is_backward);
                     (Found::Path, How::Kept)
                 }
                 None => (Found::Nothing, How::Kept),
@@ -239,14 +243,14 @@ impl<W: Word> Basin<W> {
             End::Goal(_) => {
                 // From the start down to where the freed cells begin, over them, and on.
                 let at = self.search.reached();
-                let first = self.search.back(at).last()?.0;
-                let mut way = Vec::new();
+                let first = self.search.back(at).last().map_or(at, |(id, ..)| id);
+                let mut way = Chain::default();
+                way.begin(first);
                 let downhill = starts.field.downhill(problem);
-                if downhill.go(first, |id| way.push(id)) != to_start.root {
+                if downhill.go(first, |k| way.push(k)) != to_start.root {
                     return None;
                 }
-                way.reverse();
-                way.pop();
+                way.turn(to_start.root);
                 self.spare = way;
                 self.go_on(problem, to_goal, at);
                 Some((Found::Path, How::Patched))
@@ -257,14 +261,11 @@ impl<W: Word> Basin<W> {
     /// The answer is what `spare` holds, the way of the last search to where it arrived, and the
     /// old way on from there.
     fn go_on(&mut self, problem: &GridProblem, way: Way<W>, at: u32) {
-        let known = self.spare.len();
-        self.spare.extend(self.search.back(at).map(|(id, _)| id));
-        self.spare[known..].reverse();
-        self.spare.pop();
         let spare = &mut self.spare;
+        spare.push_all_back(self.search.back(at).map(|(.., k)| k));
         let downhill = self.sides[way.side].field.downhill(problem);
-        downhill.go(at, |id| spare.push(id));
-        self.accept(way.is_backward);
+        downhill.go(at, |k| spare.push(k));
+        self.accept(problem, way.is_backward);
     }
 
     /// Searches from one end to where an old way on holds.
@@ -295,7 +296,7 @@ impl<W: Word> Basin<W> {
         };
         let mut best = if is_intact { way.whole } else { W::LIMIT };
         if is_intact && heuristic(way.from).is_none_or(|least| least >= best) {
-            self.accept(way.is_backward);
+            self.accept(problem, way.is_backward);
             return (Found::Path, How::Kept);
         }
         let downhill = side.field.downhill(problem);
@@ -322,12 +323,12 @@ impl<W: Word> Basin<W> {
             End::Cut => (Found::Cut, How::Searched),
             End::TooFar => (Found::TooFar, How::Searched),
             End::Exhausted if is_intact => {
-                self.accept(way.is_backward);
+                self.accept(problem, way.is_backward);
                 (Found::Path, How::Searched)
             }
             End::Exhausted => (Found::Nothing, How::Searched),
             End::Goal(_) => {
-                self.spare.clear();
+                self.spare.begin(way.from);
                 self.go_on(problem, way, self.search.reached());
                 (Found::Path, How::Searched)
             }
@@ -372,9 +373,10 @@ impl<W: Word> Basin<W> {
             End::TooFar => Found::TooFar,
             End::Exhausted => Found::Nothing,
             End::Goal(_) => {
-                self.spare.clear();
-                self.spare.extend(self.search.back(goal).map(|(id, _)| id));
-                self.accept(true);
+                self.spare.begin(layout.id(problem.start()));
+                let back = self.search.back(goal);
+                self.spare.push_all_back(back.map(|(.., k)| k));
+                self.accept(problem, false);
                 Found::Path
             }
         };

@@ -1,6 +1,10 @@
 //! Two fields, what changed since they were exact, and their upkeep.
 
-use super::{marks::Marks, patch::Patch};
+use super::{
+    chain::{Chain, KEPT},
+    marks::Marks,
+    patch::Patch,
+};
 use pf_core::Context;
 use pf_grid::{
     Cell, Damage, Distances, GridChange, GridProblem, Layout, Search, Sweeper, Swept, Weights, Word,
@@ -44,11 +48,11 @@ pub(super) struct Basin<W: Word> {
     pub(super) marks: Marks,
     /// Ids of cells that changed since the older field was exact.
     pub(super) log: Vec<u32>,
-    /// The last answer's path, the start first.
-    pub(super) last: Vec<u32>,
-    /// The ends that it answers, while nothing was opened since; the path is empty if there is none.
+    /// The last answer's path, from the start; none if there is none.
+    pub(super) last: Chain,
+    /// The ends that it answers, while nothing was opened since.
     pub(super) answered: Option<(Cell, Cell)>,
-    pub(super) spare: Vec<u32>,
+    pub(super) spare: Chain,
     pub(super) patch: Patch<W>,
     /// Ends of the last question, and in how many questions running each was elsewhere than before.
     ends: [Cell; 2],
@@ -67,9 +71,9 @@ impl<W: Word> Default for Basin<W> {
             search: Search::default(),
             marks: Marks::default(),
             log: Vec::new(),
-            last: Vec::new(),
+            last: Chain::default(),
             answered: None,
-            spare: Vec::new(),
+            spare: Chain::default(),
             patch: Patch::default(),
             ends: [Cell::default(); 2],
             moves: [0; 2],
@@ -89,13 +93,14 @@ impl<W: Word> Basin<W> {
     pub(super) fn bytes(&self) -> usize {
         let sides = self.sides.iter();
         let sides = sides.map(|side| side.field.bytes() + side.damage.bytes());
-        let ids = self.log.capacity() + self.last.capacity() + self.spare.capacity();
         sides.sum::<usize>()
             + self.sweeper.bytes()
             + self.search.bytes()
             + self.marks.bytes()
             + self.patch.bytes()
-            + ids * size_of::<u32>()
+            + self.last.bytes()
+            + self.spare.bytes()
+            + self.log.capacity() * size_of::<u32>()
     }
 
     /// Whether it was made for grids of this shape.
@@ -120,8 +125,7 @@ impl<W: Word> Basin<W> {
 
     /// The last answer's path.
     pub(super) fn path(&self, problem: &GridProblem) -> Vec<Cell> {
-        let layout = problem.grid().layout();
-        self.last.iter().map(|&id| layout.cell(id)).collect()
+        self.last.cells(problem.grid().layout())
     }
 
     /// Nothing is known.
@@ -248,13 +252,13 @@ impl<W: Word> Basin<W> {
             }
         }
         self.log.clear();
+        self.log.shrink_to(KEPT);
         self.debt = 0;
         self.sides.iter_mut().for_each(|side| side.refresh(0));
         // Memory that the next answer may want.
         let layout = problem.grid().layout();
         self.search.prepare(layout);
-        self.marks.clear(layout.len());
-        self.patch.prepare(layout);
+        self.marks.prepare(layout.len());
         Found::Path
     }
 

@@ -2,6 +2,8 @@
 
 mod answer;
 mod basin;
+mod chain;
+mod freed;
 mod marks;
 mod patch;
 
@@ -10,7 +12,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{Cell, GridProblem};
+use pf_grid::{Cell, GridProblem, U48};
 
 /// When an [`RfdField`] repairs and when it sweeps.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,7 +88,8 @@ pub struct RfdField {
 #[derive(Clone, Debug)]
 enum Width {
     Narrow(Basin<u32>),
-    Wide(Basin<u64>),
+    Wide(Basin<U48>),
+    Wider(Basin<u64>),
     Huge(Basin<u128>),
 }
 
@@ -102,6 +105,7 @@ macro_rules! basin {
         match $width {
             Width::Narrow($basin) => $work,
             Width::Wide($basin) => $work,
+            Width::Wider($basin) => $work,
             Width::Huge($basin) => $work,
         }
     };
@@ -178,13 +182,11 @@ impl RfdField {
 
 impl Width {
     fn widen(&mut self) {
-        let narrow = matches!(self, Self::Narrow(_));
-        // The old memory goes before the new comes.
-        *self = Self::default();
-        *self = if narrow {
-            Self::Wide(Basin::default())
-        } else {
-            Self::Huge(Basin::default())
+        // The old memory goes before the new comes, as that comes with use.
+        *self = match self {
+            Self::Narrow(_) => Self::Wide(Basin::default()),
+            Self::Wide(_) => Self::Wider(Basin::default()),
+            Self::Wider(_) | Self::Huge(_) => Self::Huge(Basin::default()),
         };
     }
 }

@@ -1,6 +1,6 @@
 //! Ways over freed cells: whether one may be better than the old way, and the best there is.
 
-use super::{answer::clamped, basin::Side, marks::Marks};
+use super::{answer::clamped, basin::Side, freed::Freed, marks::Marks};
 use pf_core::Context;
 use pf_grid::{Apart, Distances, End, GridProblem, Layout, Moves, Search, Weights, Word};
 
@@ -18,10 +18,7 @@ use pf_grid::{Apart, Distances, End, GridProblem, Layout, Moves, Search, Weights
 /// Source: ours; that nothing changes where no edge relaxes is Ramalingam and Reps, 1996.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Patch<W> {
-    /// The freed cells, and what is left from each.
-    freed: Vec<(u32, W)>,
-    /// By id: the number among them, from 1.
-    places: Vec<u8>,
+    freed: Freed<W>,
     /// Where a better way may be: column and row, and what is left from there.
     shores: Vec<((u32, u32), W)>,
     /// Where an old way may be left: an id, and the way there from the start.
@@ -51,30 +48,15 @@ fn between<W: Word>(apart: Apart<W>, (ax, ay): (u32, u32), (bx, by): (u32, u32))
 impl<W: Word> Patch<W> {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.freed.capacity() * size_of::<(u32, W)>()
-            + self.places.capacity()
+        self.freed.bytes()
             + self.shores.capacity() * size_of::<((u32, u32), W)>()
             + self.seeds.capacity() * size_of::<(u32, W)>()
-    }
-
-    /// Makes ready for grids of a layout.
-    pub(super) fn prepare(&mut self, layout: &Layout) {
-        if self.places.len() != layout.len() {
-            self.freed.clear();
-            self.places.clear();
-            self.places.resize(layout.len(), 0);
-        }
     }
 
     /// Looks around the changed cells for what may lead to less than the best. Says whether there
     /// was little enough to look at.
     pub(super) fn look(&mut self, sight: &Sight<'_, W>, changed: &[u32]) -> bool {
-        let grid = sight.problem.grid();
-        let layout = grid.layout();
-        self.prepare(layout);
-        for (id, _) in self.freed.drain(..) {
-            self.places[id as usize] = 0;
-        }
+        self.freed.clear();
         self.shores.clear();
         self.seeds.clear();
         if !self.gather(sight, changed) {
@@ -106,19 +88,17 @@ impl<W: Word> Patch<W> {
             if over >= sight.best && over - sight.best >= slack {
                 continue;
             }
-            if sight.is_useless(id) || self.places[id as usize] != 0 {
+            if sight.is_useless(id) || self.freed.place(id).is_some() {
                 continue;
             }
-            let Ok(place) = u8::try_from(self.freed.len() + 1) else {
-                return false;
-            };
-            self.places[id as usize] = place;
             let left = if id == sight.ends[1] {
                 W::default()
             } else {
                 W::MAX
             };
-            self.freed.push((id, left));
+            if !self.freed.add(id, left) {
+                return false;
+            }
         }
         true
     }
@@ -126,9 +106,9 @@ impl<W: Word> Patch<W> {
     /// What is left from a cell: by the tiny search if it was freed, else as ever.
     #[inline]
     fn left(&self, goals: &Distances<W>, id: u32) -> W {
-        match self.places[id as usize] {
-            0 => goals.at(id),
-            place => self.freed[usize::from(place) - 1].1,
+        match self.freed.place(id) {
+            None => goals.at(id),
+            Some(place) => self.freed.cells[place].1,
         }
     }
 
@@ -138,13 +118,10 @@ impl<W: Word> Patch<W> {
         let (mut again, mut backwards) = (true, false);
         while std::mem::take(&mut again) {
             backwards = !backwards;
-            for k in 0..self.freed.len() {
-                let k = if backwards {
-                    self.freed.len() - 1 - k
-                } else {
-                    k
-                };
-                let (id, mut least) = self.freed[k];
+            let count = self.freed.cells.len();
+            for k in 0..count {
+                let k = if backwards { count - 1 - k } else { k };
+                let (id, mut least) = self.freed.cells[k];
                 for (next, weight) in sight.steps(id) {
                     let rest = self.left(goals, next);
                     if rest < least && rest + weight < least {
@@ -152,7 +129,7 @@ impl<W: Word> Patch<W> {
                         again = true;
                     }
                 }
-                self.freed[k].1 = least;
+                self.freed.cells[k].1 = least;
             }
         }
     }
@@ -162,15 +139,15 @@ impl<W: Word> Patch<W> {
         let layout = *sight.problem.grid().layout();
         let goals = &sight.sides[1].field;
         let corners = !matches!(sight.problem.moves(), Moves::Always | Moves::Orthogonal);
-        for k in 0..self.freed.len() {
-            let (id, left) = self.freed[k];
+        for k in 0..self.freed.cells.len() {
+            let (id, left) = self.freed.cells[k];
             // A way may begin here.
             let is_reached = sight.sides[0].field.at(id) < W::MAX;
             if is_reached && left < goals.at(id) && !self.add_shore(sight, layout, id, left) {
                 return false;
             }
             for (next, weight) in sight.steps(id) {
-                let is_old = self.places[next as usize] == 0;
+                let is_old = self.freed.place(next).is_none();
                 if is_old
                     && left < W::MAX
                     && left + weight < goals.at(next)
@@ -184,7 +161,7 @@ impl<W: Word> Patch<W> {
                 }
                 for (beyond, weight) in sight.steps(next) {
                     let rest = goals.at(beyond);
-                    if self.places[beyond as usize] == 0
+                    if self.freed.place(beyond).is_none()
                         && rest < goals.at(next)
                         && rest + weight < goals.at(next)
                         && !self.add_shore(sight, layout, next, rest + weight)
@@ -218,7 +195,7 @@ impl<W: Word> Patch<W> {
         let layout = *grid.layout();
         let apart = sight.weights.apart::<W>(sight.problem.moves());
         let starts = &sight.sides[0].field;
-        for &(id, _) in &self.freed {
+        for &(id, _) in &self.freed.cells {
             let around = layout
                 .offsets()
                 .map(|offset| id.wrapping_add_signed(offset));

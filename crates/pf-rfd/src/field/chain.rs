@@ -1,0 +1,102 @@
+//! Paths that take a byte a step.
+
+use pf_grid::{Cell, DIRECTIONS, Layout};
+
+/// What scratch memory keeps at the most, in entries: to fill more takes far longer than to ask
+/// for memory again.
+pub(super) const KEPT: usize = 1 << 16;
+
+/// A path as its first id and the directions of its steps; or none.
+///
+/// Source: Freeman, *On the encoding of arbitrary geometric configurations*, 1961.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Chain {
+    /// 0, of the border, if there is no path.
+    first: u32,
+    steps: Vec<u8>,
+}
+
+impl Chain {
+    /// No path.
+    pub(super) fn clear(&mut self) {
+        self.begin(0);
+    }
+
+    /// Whether there is no path.
+    pub(super) fn is_none(&self) -> bool {
+        self.first == 0
+    }
+
+    /// A path that ends where it begins.
+    pub(super) fn begin(&mut self, first: u32) {
+        self.first = first;
+        self.steps.clear();
+    }
+
+    /// Goes a step on.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "below 8")]
+    pub(super) fn push(&mut self, direction: u32) {
+        self.steps.push(direction as u8);
+    }
+
+    /// Goes on by steps told from the last to the first.
+    pub(super) fn push_all_back(&mut self, back: impl Iterator<Item = u32>) {
+        let known = self.steps.len();
+        back.for_each(|direction| self.push(direction));
+        self.steps[known..].reverse();
+    }
+
+    /// The same path the other way, from its last id.
+    pub(super) fn turn(&mut self, last: u32) {
+        self.first = last;
+        self.steps.reverse();
+        // Directions two apart are opposite, among straight and diagonal ones.
+        self.steps.iter_mut().for_each(|step| *step ^= 2);
+    }
+
+    /// Forgets what comes before an id, if the path leads over it.
+    pub(super) fn begin_at(&mut self, id: u32, layout: &Layout) -> bool {
+        let offsets = layout.offsets();
+        let (mut at, mut before) = (self.first, 0);
+        while at != id {
+            let Some(&step) = self.steps.get(before) else {
+                return false;
+            };
+            at = at.wrapping_add_signed(offsets[usize::from(step) & 7]);
+            before += 1;
+        }
+        self.steps.drain(..before);
+        self.first = id;
+        true
+    }
+
+    /// The cells, the first one first; none if there is no path.
+    pub(super) fn cells(&self, layout: &Layout) -> Vec<Cell> {
+        if self.is_none() {
+            return Vec::new();
+        }
+        let mut cell = layout.cell(self.first);
+        let mut cells = Vec::with_capacity(self.steps.len() + 1);
+        cells.push(cell);
+        cells.extend(self.steps.iter().map(|&step| {
+            let (dx, dy) = DIRECTIONS[usize::from(step) & 7];
+            cell = Cell {
+                x: cell.x.wrapping_add_signed(dx),
+                y: cell.y.wrapping_add_signed(dy),
+            };
+            cell
+        }));
+        cells
+    }
+
+    /// Gives back what is not worth keeping.
+    pub(super) fn shrink(&mut self) {
+        self.steps.shrink_to(KEPT);
+    }
+
+    /// Bytes held.
+    pub(super) fn bytes(&self) -> usize {
+        self.steps.capacity()
+    }
+}
