@@ -20,13 +20,24 @@ impl<'d, W: Word> Downhill<'d, W> {
     #[inline]
     #[must_use]
     pub fn next(&self, id: u32, ahead: u32) -> Option<(u32, u32)> {
+        self.next_over(id, ahead, |_| true)
+    }
+
+    /// The same, where the next id is to be one of some.
+    #[inline]
+    pub fn next_over(
+        &self,
+        id: u32,
+        ahead: u32,
+        is_one: impl Fn(u32) -> bool,
+    ) -> Option<(u32, u32)> {
         let left = W::of(self.values[id as usize]);
         let legal = self.steps.legal(id);
         let leads = |k: u32| {
             let next = id.wrapping_add_signed(self.steps.offsets[k as usize & 7]);
             let rest = W::of(self.values[next as usize]);
             let weight: W = self.steps.weights.step(self.steps.grid, id, next, k);
-            (rest < left && rest + weight == left).then_some((next, k))
+            (rest < left && rest + weight == left && is_one(next)).then_some((next, k))
         };
         if u32::from(legal) >> ahead & 1 == 1
             && let Some(on) = leads(ahead)

@@ -228,6 +228,48 @@ fn ten_thousand_answers_of_fields_settled_now_and_then_or_never_are_the_best() {
     often(&ways, &[("kept", 500), ("searched", 200), ("afresh", 1000)]);
 }
 
+/// A hundredth of a wide map changes anywhere: many ways down are as long as each other, and some of
+/// them are cut further on.
+#[test]
+fn answers_on_wide_maps_that_change_all_over_are_the_best() {
+    let mut rng = seeded(53);
+    let mut ways = BTreeMap::new();
+    for story in 0..120 {
+        let size = rng.random_range(120..=200);
+        let grid = mosaic(&mut rng, size, 1);
+        let (start, goal) = (free_cell(&mut rng, &grid), free_cell(&mut rng, &grid));
+        let moves = Moves::ALL[story % 4];
+        let problem = GridProblem::new(grid, start, goal).unwrap();
+        let mut problem = problem.with_moves(moves);
+        let mut planner = RfdField::default();
+        planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        for event in 0..8 {
+            planner.settle(&problem, &mut Context::seeded(0));
+            let (mut free, mut blocked) = (vec![], vec![]);
+            for _ in 0..size * size / 100 {
+                let cell = any_cell(&mut rng, problem.grid());
+                if problem.grid().is_free(cell) {
+                    free.push(cell);
+                } else if rng.random_bool(0.3) {
+                    blocked.push(cell);
+                }
+            }
+            let changes = [GridChange::Blocked(free), GridChange::Freed(blocked)];
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            let way = report.note("replanned").unwrap_or("hopeless");
+            *ways.entry(way.to_owned()).or_default() += 1;
+            let expected = oracle(&problem);
+            assert_eq!(
+                proven(&problem, &report),
+                expected,
+                "{story}, {event}, {way}"
+            );
+        }
+    }
+    often(&ways, &[("searched", 300)]);
+}
+
 /// Every other row is a wall with a gap at alternate ends: from corner to corner through half the
 /// cells, each of which costs so much.
 fn serpentine(side: u32, cost: u8) -> GridProblem {

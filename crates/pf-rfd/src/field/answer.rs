@@ -252,19 +252,24 @@ impl<W: Word> Basin<W> {
                 }
                 way.turn(to_start.root);
                 self.spare = way;
-                self.go_on(problem, to_goal, at);
+                let marked = self.sides[to_goal.side].closed;
+                self.go_on(problem, to_goal, at, marked);
                 Some((Found::Path, How::Patched))
             }
         }
     }
 
     /// The answer is what `spare` holds, the way of the last search to where it arrived, and the
-    /// old way on from there.
-    fn go_on(&mut self, problem: &GridProblem, way: Way<W>, at: u32) {
+    /// old way on from there: the one that was `marked`, if it was.
+    fn go_on(&mut self, problem: &GridProblem, way: Way<W>, at: u32, marked: bool) {
         let spare = &mut self.spare;
         spare.push_all_back(self.search.back(at).map(|(.., k)| k));
         let downhill = self.sides[way.side].field.downhill(problem);
-        downhill.go(at, |k| spare.push(k));
+        if marked && self.marks.holds(at) {
+            self.marks.go(&downhill, at, way.root, |k| spare.push(k));
+        } else {
+            downhill.go(at, |k| spare.push(k));
+        }
         self.accept(problem, way.is_backward);
     }
 
@@ -329,7 +334,7 @@ impl<W: Word> Basin<W> {
             End::Exhausted => (Found::Nothing, How::Searched),
             End::Goal(_) => {
                 self.spare.begin(way.from);
-                self.go_on(problem, way, self.search.reached());
+                self.go_on(problem, way, self.search.reached(), true);
                 (Found::Path, How::Searched)
             }
         }

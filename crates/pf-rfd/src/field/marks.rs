@@ -44,6 +44,28 @@ impl Marks {
         self.round = 0;
     }
 
+    /// Goes down from an id whose way was found intact, and shows the direction of every step. Of ways
+    /// as long as each other it takes one that is known to lead to the root.
+    pub(super) fn go<W: Word>(
+        &self,
+        downhill: &Downhill<'_, W>,
+        from: u32,
+        root: u32,
+        mut show: impl FnMut(u32),
+    ) {
+        let (mut id, mut ahead) = (from, 0);
+        let is_intact = |id: u32| id == root || self.holds(id);
+        while let Some(on) = downhill.next_over(id, ahead, is_intact) {
+            (id, ahead) = on;
+            show(ahead);
+        }
+    }
+
+    /// Whether the way down from an id was found intact in this round.
+    pub(super) fn holds(&self, id: u32) -> bool {
+        self.cells.get(id as usize) == Some(&(self.round << 1 | 1))
+    }
+
     /// Whether the way down from an id leads to the root.
     #[expect(clippy::cast_possible_truncation, reason = "directions are below 8")]
     pub(super) fn is_intact<W: Word>(
