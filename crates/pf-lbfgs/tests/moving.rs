@@ -154,6 +154,43 @@ fn moving_obstacles_are_dodged() {
     }
 }
 
+/// Whoever keeps a side for up to 5 % never goes further than that, wherever ends and obstacles move.
+#[test]
+fn a_replan_is_at_most_a_share_longer_than_a_plan() {
+    let mut worst = 0.0f64;
+    for seed in 5001..5050 {
+        for (count, kind) in [(10, Kind::Rectangles), (20, Kind::Mixed), (50, Kind::Mixed)] {
+            let mut rng = seeded(seed);
+            let mut problem = waypoint_world(seed, count, kind);
+            let mut planner = Lbfgs::default();
+            plan(&mut planner, &problem);
+            for step in 0..20 {
+                let goal = near(&mut rng, &problem, problem.goal(), 0.8);
+                let mut changes = vec![WorldChange::GoalMoved(goal)];
+                if step % 7 == 3 {
+                    let start = near(&mut rng, &problem, problem.start(), 0.5);
+                    changes.push(WorldChange::StartMoved(start));
+                }
+                if step % 5 == 4 {
+                    let by = Vector::new(rng.random_range(-0.3..0.3), 0.1);
+                    changes.push(WorldChange::Moved(step % count as usize, by));
+                }
+                let report = replan(&mut planner, &mut problem, &changes);
+                let fresh = plan(&mut Lbfgs::default(), &problem);
+                match (&report.outcome, &fresh.outcome) {
+                    (Outcome::Feasible(kept), Outcome::Feasible(best)) => {
+                        worst = worst.max(kept.cost / best.cost);
+                    }
+                    (Outcome::Infeasible, Outcome::Infeasible) => {}
+                    (kept, best) => panic!("{seed}: {} {}", kept.word(), best.word()),
+                }
+            }
+        }
+    }
+    println!("worst {worst}");
+    assert!(worst <= 1.0 / 0.95 + 1e-3, "{worst}");
+}
+
 /// A circle between start and goal; the goal goes up and down behind it.
 fn behind_a_circle() -> WorldProblem {
     let bounds = Rectangle::new(Point::new(-10.0, -10.0), Point::new(10.0, 10.0)).unwrap();

@@ -104,11 +104,15 @@ impl Exact {
             self.path.clone_from(&self.laid);
         }
         let passes = self.improve(job, !known, cx).is_some();
+        self.rival.clear();
+        if !passes && !cx.stopped() {
+            // Nothing smooth goes there, but the exact path does.
+            return (false, Origin::Afresh);
+        }
         let better = passes && length(&self.path) < enough;
         if !better {
             std::mem::swap(&mut self.path, &mut self.kept);
         }
-        self.rival.clear();
         if passes {
             self.rival.extend_from_slice(&self.kept);
             self.rival_in = stamp;
