@@ -173,7 +173,7 @@ fn a_replan_is_at_most_a_share_longer_than_a_plan() {
                 }
                 if step % 5 == 4 {
                     let by = Vector::new(rng.random_range(-0.3..0.3), 0.1);
-                    changes.push(WorldChange::Moved(step % count as usize, by));
+                    changes.push(WorldChange::Moved(step % count, by));
                 }
                 let report = replan(&mut planner, &mut problem, &changes);
                 let fresh = plan(&mut Lbfgs::default(), &problem);
