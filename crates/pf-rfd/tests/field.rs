@@ -228,6 +228,38 @@ fn ten_thousand_answers_of_fields_settled_now_and_then_or_never_are_the_best() {
     often(&ways, &[("kept", 500), ("searched", 200), ("afresh", 1000)]);
 }
 
+/// A door between two halls as far from the goal helps nobody, until a wall further on has a door, too.
+#[test]
+fn a_useless_door_leads_to_a_useful_one() {
+    let drawing = "
+        ...........
+        .....@.....
+        .....@.....
+        @@@@@@@@@@.
+        .....@.....
+        .....@.....
+        ...........
+    ";
+    let (start, goal) = (Cell::new(1, 2), Cell::new(10, 3));
+    let problem = GridProblem::new(Grid::parse(drawing).unwrap(), start, goal);
+    let mut problem = problem.unwrap().with_moves(Moves::Orthogonal);
+    let mut planner = RfdField::default();
+    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    let doors = [Cell::new(2, 3), Cell::new(5, 4)];
+    for (freed, steps) in [(&doors[..1], 14), (&doors[1..], 14), (&doors[..], 12)] {
+        planner.settle(&problem, &mut Context::seeded(0));
+        let changes = [GridChange::Freed(freed.to_vec())];
+        let revision = problem.revise(&changes).unwrap();
+        let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+        let expected = GridCost::of_steps(steps, 0);
+        assert_eq!(proven(&problem, &report), Some(expected));
+        problem
+            .apply(&[GridChange::Blocked(freed.to_vec())])
+            .unwrap();
+        planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    }
+}
+
 /// A hundredth of a wide map changes anywhere: many ways down are as long as each other, and some of
 /// them are cut further on.
 #[test]

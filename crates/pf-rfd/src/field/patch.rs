@@ -13,12 +13,15 @@ use pf_grid::{Apart, Distances, End, GridProblem, Layout, Moves, Search, Weights
 /// passes one, and before that it costs at least what an open field would. That is the certificate:
 /// where no cell near the freed ones, with the way there from the start, leads over a shore to less
 /// than the old way costs, that is still best. Where one does, a search goes on from there,
-/// directed by the same bound.
+/// directed by the same bound. A cell that by itself helps no neighbour takes no part in the tiny search, but
+/// a way may pass it before it comes to a shore, so the search begins beside it, too.
 ///
 /// Source: ours; that nothing changes where no edge relaxes is Ramalingam and Reps, 1996.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Patch<W> {
     freed: Freed<W>,
+    /// Those that are of no use by themselves. A way over them may lead to others.
+    useless: Vec<u32>,
     /// Where a better way may be: column and row, and what is left from there.
     shores: Vec<((u32, u32), W)>,
     /// Where an old way may be left: an id, and the way there from the start.
@@ -49,6 +52,7 @@ impl<W: Word> Patch<W> {
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
         self.freed.bytes()
+            + self.useless.capacity() * size_of::<u32>()
             + self.shores.capacity() * size_of::<((u32, u32), W)>()
             + self.seeds.capacity() * size_of::<(u32, W)>()
     }
@@ -57,6 +61,7 @@ impl<W: Word> Patch<W> {
     /// was little enough to look at.
     pub(super) fn look(&mut self, sight: &Sight<'_, W>, changed: &[u32]) -> bool {
         self.freed.clear();
+        self.useless.clear();
         self.shores.clear();
         self.seeds.clear();
         if !self.gather(sight, changed) {
@@ -88,7 +93,11 @@ impl<W: Word> Patch<W> {
             if over >= sight.best && over - sight.best >= slack {
                 continue;
             }
-            if sight.is_useless(id) || self.freed.place(id).is_some() {
+            if sight.is_useless(id) {
+                self.useless.push(id);
+                continue;
+            }
+            if self.freed.place(id).is_some() {
                 continue;
             }
             let left = if id == sight.ends[1] {
@@ -195,7 +204,8 @@ impl<W: Word> Patch<W> {
         let layout = *grid.layout();
         let apart = sight.weights.apart::<W>(sight.problem.moves());
         let starts = &sight.sides[0].field;
-        for &(id, _) in &self.freed.cells {
+        let freed = self.freed.cells.iter().map(|&(id, _)| id);
+        for id in freed.chain(self.useless.iter().copied()) {
             let around = layout
                 .offsets()
                 .map(|offset| id.wrapping_add_signed(offset));
