@@ -125,11 +125,25 @@ fn cells(rng: &mut PlanRng, grid: &Grid, count: u32) -> Vec<Cell> {
         .collect()
 }
 
+/// Some cells the other way round: what was free is blocked, or not, and what was blocked is freed, or not.
+fn turned(rng: &mut PlanRng, grid: &Grid, count: u32) -> Vec<GridChange> {
+    let share = rng.random_range(0.0..1.0);
+    let (free, walls): (Vec<Cell>, Vec<Cell>) = cells(rng, grid, count)
+        .into_iter()
+        .partition(|&cell| grid.is_free(cell));
+    let mut some = |cells: Vec<Cell>, share: f64| -> Vec<Cell> {
+        let keep = |_: &Cell| rng.random_bool(share);
+        cells.into_iter().filter(keep).collect()
+    };
+    let blocked = GridChange::Blocked(some(free, share));
+    vec![blocked, GridChange::Freed(some(walls, 1.0 - share))]
+}
+
 /// One kind of thing that happens, or many at once.
 fn some_event(rng: &mut PlanRng, problem: &GridProblem, path: &[Cell]) -> Vec<GridChange> {
     let grid = problem.grid();
     let count = [1, 3, 10, 40, 200][rng.random_range(0..5usize)];
-    match rng.random_range(0..14) {
+    match rng.random_range(0..18) {
         0 => vec![GridChange::GoalMoved(free_cell(rng, grid))],
         1 => vec![GridChange::StartMoved(free_cell(rng, grid))],
         2 => vec![
@@ -148,6 +162,7 @@ fn some_event(rng: &mut PlanRng, problem: &GridProblem, path: &[Cell]) -> Vec<Gr
             GridChange::StartMoved(path[path.len() / 5]),
             GridChange::Blocked(cells(rng, grid, count.min(40))),
         ],
+        14.. => turned(rng, grid, count),
         _ => random_batch(rng, problem, 200),
     }
 }
