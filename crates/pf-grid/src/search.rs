@@ -117,12 +117,17 @@ impl<W: Word> Search<W> {
         let reach = weights.reach();
 
         self.open.reset(first, reach, weights.shift::<W>());
+        let mut beyond = false;
         for seed in seeds {
             let &(id, g) = seed;
             let known = self.weight(id);
             if let Some(key) = key(seed)
                 && known.is_none_or(|known| g < known)
             {
+                if key >= bound {
+                    beyond = true;
+                    continue;
+                }
                 self.records[id as usize] = Record {
                     g: g.keep(),
                     generation: self.generation,
@@ -138,14 +143,14 @@ impl<W: Word> Search<W> {
                 moves,
                 successors: successors(moves),
             };
-            self.search(layout, bound, heuristic, arrive, &pruned, cx)
+            self.search(layout, bound, beyond, heuristic, arrive, &pruned, cx)
         } else {
             let weighed = Weighed {
                 grid,
                 moves,
                 weights,
             };
-            self.search(layout, bound, heuristic, arrive, &weighed, cx)
+            self.search(layout, bound, beyond, heuristic, arrive, &weighed, cx)
         }
     }
 
@@ -172,6 +177,7 @@ impl<W: Word> Search<W> {
         &mut self,
         layout: &Layout,
         most: W,
+        mut beyond: bool,
         heuristic: impl Fn(u32) -> Option<W>,
         mut arrive: impl FnMut(u32, W) -> Option<W>,
         steps: &S,
@@ -181,7 +187,6 @@ impl<W: Word> Search<W> {
         let generation = self.generation;
         // No path as heavy as this is of interest, first for exactness, then for being no better.
         let mut bound = most;
-        let mut beyond = false;
         while let Some((id, g)) = self.open.pop(bound) {
             let record = &mut self.records[id as usize];
             if record.closed || W::of(record.g) != g {

@@ -275,6 +275,64 @@ fn a_useless_door_leads_to_a_useful_one() {
     }
 }
 
+/// The old way beyond the useful cell is cut, and the way on leads over one that helps nobody by itself.
+#[test]
+fn a_useless_door_after_a_useful_one() {
+    let drawing = "
+        .............
+        @@@@@@@@@@@@.
+        .............
+        .....@.......
+    ";
+    let (start, goal) = (Cell::new(2, 0), Cell::new(10, 2));
+    let problem = GridProblem::new(Grid::parse(drawing).unwrap(), start, goal);
+    let mut problem = problem.unwrap().with_moves(Moves::Orthogonal);
+    let mut planner = RfdField::default();
+    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    planner.settle(&problem, &mut Context::seeded(0));
+    let changes = [
+        GridChange::Blocked(vec![Cell::new(5, 2)]),
+        GridChange::Freed(vec![Cell::new(2, 1), Cell::new(5, 3)]),
+    ];
+    let revision = problem.revise(&changes).unwrap();
+    let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+    let expected = GridCost::of_steps(12, 0);
+    assert_eq!(proven(&problem, &report), Some(expected));
+}
+
+/// Either half of a way is short enough for 32 bits, and the whole is not.
+#[test]
+fn two_halves_that_are_joined_may_need_a_wider_word() {
+    let gap = Cell::new(399, 201);
+    let end = Cell::new(399, 398);
+    let mut problem = serpentine(400, 1);
+    problem
+        .apply(&[GridChange::GoalMoved(end), GridChange::Blocked(vec![gap])])
+        .unwrap();
+    let mut planner = RfdField::default();
+    let report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    assert_eq!(proven(&problem, &report), None);
+    planner.settle(&problem, &mut Context::seeded(0));
+    let changes = [GridChange::Freed(vec![gap])];
+    let revision = problem.revise(&changes).unwrap();
+    let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+    assert!(oracle(&problem).is_some());
+    assert_eq!(proven(&problem, &report), oracle(&problem));
+}
+
+/// Altitudes are above the goal in every word.
+#[test]
+fn altitudes_stay_right_when_the_word_widens() {
+    let mut problem = serpentine(400, 1);
+    let (start, goal) = (Cell::new(399, 398), Cell::new(0, 200));
+    let changes = [GridChange::StartMoved(start), GridChange::GoalMoved(goal)];
+    problem.apply(&changes).unwrap();
+    let mut planner = RfdField::default();
+    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    planner.settle(&problem, &mut Context::seeded(0));
+    assert_eq!(planner.altitude(goal), Some(0.0));
+}
+
 /// A hundredth of a wide map changes anywhere: many ways down are as long as each other, and some of
 /// them are cut further on.
 #[test]

@@ -83,6 +83,7 @@ impl<W: Word> Basin<W> {
             return (Found::TooFar, How::Afresh);
         }
         self.layout = Some(*problem.grid().layout());
+        self.ends = [problem.start(), problem.goal()];
         let before = cx.stats().expanded;
         let (found, how) = self.find(problem, cx);
         self.debt += cx.stats().expanded - before;

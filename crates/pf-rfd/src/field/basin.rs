@@ -55,7 +55,7 @@ pub(super) struct Basin<W: Word> {
     pub(super) spare: Chain,
     pub(super) patch: Patch<W>,
     /// Ends of the last question, and in how many questions running each was elsewhere than before.
-    ends: [Cell; 2],
+    pub(super) ends: [Cell; 2],
     moves: [u32; 2],
     /// Expansions of the last sweep, and of answers since the fields were exact.
     effort: u64,
@@ -214,6 +214,8 @@ impl<W: Word> Basin<W> {
         cx: &mut Context<'_, GridProblem>,
     ) -> Found {
         self.layout = Some(*problem.grid().layout());
+        // This may be the first that a wider word hears of them.
+        self.ends = [problem.start(), problem.goal()];
         if !Distances::<W>::fit(problem) {
             return Found::TooFar;
         }

@@ -133,8 +133,13 @@ impl<W: Word> Patch<W> {
                 let (id, mut least) = self.freed.cells[k];
                 for (next, weight) in sight.steps(id) {
                     let rest = self.left(goals, next);
-                    if rest < least && rest + weight < least {
-                        least = rest + weight;
+                    if rest == W::MAX {
+                        continue;
+                    }
+                    // What is beyond the limit need not be known any better, and fits.
+                    let over = (rest + weight).min(W::LIMIT);
+                    if over < least {
+                        least = over;
                         again = true;
                     }
                 }
@@ -226,7 +231,7 @@ impl<W: Word> Patch<W> {
     fn least(&self, apart: Apart<W>, at: (u32, u32)) -> W {
         let shores = self.shores.iter();
         let over = shores.map(|&(other, rest)| between(apart, at, other) + rest);
-        over.min().unwrap_or(W::LIMIT)
+        over.min().unwrap_or(W::LIMIT).min(W::LIMIT)
     }
 
     /// Searches from the seeds for a way that weighs less than the best, to where an old way to the
@@ -271,12 +276,13 @@ impl<W: Word> Patch<W> {
 
 impl<W: Word> Sight<'_, W> {
     /// Whether a cell that was freed by itself makes no cell beside it any better: what `relax` and
-    /// `find_shores` would find out, for the price of a look at its neighbours.
+    /// `find_shores` would find out, for the price of a look at its neighbours. Never where something was
+    /// blocked, too: then the way on from a shore may lead over it.
     #[inline]
     fn is_useless(&self, id: u32) -> bool {
         let goals = &self.sides[1].field;
         let corners = !matches!(self.problem.moves(), Moves::Always | Moves::Orthogonal);
-        if corners || self.ends.contains(&id) || goals.at(id) < W::MAX {
+        if corners || self.sides[1].closed || self.ends.contains(&id) || goals.at(id) < W::MAX {
             return false;
         }
         let (mut over, mut most) = (W::MAX, W::default());
