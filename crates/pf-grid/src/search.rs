@@ -143,14 +143,14 @@ impl<W: Word> Search<W> {
                 moves,
                 successors: successors(moves),
             };
-            self.search(layout, bound, beyond, heuristic, arrive, &pruned, cx)
+            self.search(layout, (bound, beyond), heuristic, arrive, &pruned, cx)
         } else {
             let weighed = Weighed {
                 grid,
                 moves,
                 weights,
             };
-            self.search(layout, bound, beyond, heuristic, arrive, &weighed, cx)
+            self.search(layout, (bound, beyond), heuristic, arrive, &weighed, cx)
         }
     }
 
@@ -176,8 +176,7 @@ impl<W: Word> Search<W> {
     fn search<S: Steps<W>>(
         &mut self,
         layout: &Layout,
-        most: W,
-        mut beyond: bool,
+        (most, mut beyond): (W, bool),
         heuristic: impl Fn(u32) -> Option<W>,
         mut arrive: impl FnMut(u32, W) -> Option<W>,
         steps: &S,

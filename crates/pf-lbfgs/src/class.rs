@@ -57,6 +57,32 @@ pub(crate) fn lay(corners: &[Point], inner: usize, path: &mut Vec<f64>) {
     path.extend([last.x, last.y]);
 }
 
+/// Puts so many points, ends included, evenly along a flat path into `path`.
+pub(crate) fn respace(along: &[f64], count: usize, path: &mut Vec<f64>) {
+    let step = length(along) / ratio(count.max(2) - 1, 1);
+    path.clear();
+    path.extend(&along[..2]);
+    let mut so_far = 0.0;
+    for k in (0..along.len() - 2).step_by(2) {
+        let ends = &along[k..k + 4];
+        let piece = length(ends);
+        // The end itself is put there last, whatever rounding makes of it.
+        while path.len() / 2 + 1 < count && step * ratio(path.len() / 2, 1) <= so_far + piece {
+            let t = if piece > 0.0 {
+                (step * ratio(path.len() / 2, 1) - so_far) / piece
+            } else {
+                0.0
+            };
+            path.extend([0, 1].map(|axis| ends[axis] + t * (ends[axis + 2] - ends[axis])));
+        }
+        so_far += piece;
+    }
+    let last = &along[along.len() - 2..];
+    while path.len() / 2 < count {
+        path.extend(last);
+    }
+}
+
 #[expect(
     clippy::cast_precision_loss,
     clippy::cast_possible_truncation,
@@ -112,6 +138,25 @@ mod tests {
             -3.0, 0.0, 0.0, 2.0, 2.0, 0.0, 0.0, -2.0, -2.0, 0.0, 0.0, 2.0, 3.0, 0.0,
         ];
         assert!(!same_class(&solids, &above, &around));
+    }
+
+    #[test]
+    fn points_are_spread_evenly() {
+        let along = [0.0, 0.0, 1.0, 0.0, 1.0, 0.0, 4.0, 0.0, 4.0, 4.0];
+        let mut path = vec![];
+        respace(&along, 5, &mut path);
+        assert_eq!(path, [0.0, 0.0, 2.0, 0.0, 4.0, 0.0, 4.0, 2.0, 4.0, 4.0]);
+        respace(&along, 2, &mut path);
+        assert_eq!(path, [0.0, 0.0, 4.0, 4.0]);
+        respace(&[1.0, 1.0, 1.0, 1.0], 3, &mut path);
+        assert_eq!(path, [1.0; 6]);
+        for count in 2..200 {
+            respace(&along, count, &mut path);
+            assert_eq!(
+                (path.len(), &path[2 * count - 2..]),
+                (2 * count, &[4.0, 4.0][..])
+            );
+        }
     }
 
     #[test]

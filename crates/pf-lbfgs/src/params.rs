@@ -36,8 +36,8 @@ pub struct LbfgsParams {
     /// Ours: what keeps the path away from obstacles.
     pub obstacles: Obstacles,
     /// Ours: by what share another way round the obstacles must be shorter to be taken instead of
-    /// the last one. With 0 nothing is kept for its own sake: a replan descends from the last path and
-    /// from the exact one, and takes the better.
+    /// the last one. With 0 nothing is kept for its own sake: a replan descends from the
+    /// exact path and from the last one, if that goes the same way, and takes the better.
     pub hysteresis: f64,
     /// The paper's potential reaches so far beyond a rectangle, in the world's unit.
     pub margin: f64,

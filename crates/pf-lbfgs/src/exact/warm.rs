@@ -1,10 +1,7 @@
 //! From the last path to the next: which side of things is kept, and from where to improve.
 
 use super::{Exact, Job, Origin};
-use crate::{
-    class::{lay, length, ratio, same_class},
-    published::points,
-};
+use crate::class::{length, ratio, respace, same_class};
 use pf_core::Context;
 use pf_geom::{Point, WorldProblem};
 
@@ -26,7 +23,8 @@ impl Exact {
         let leapt = self.leapt(moved);
         if same_class(&self.hinge.solids, &self.path, &self.laid) {
             // The exact path may be the better beginning after a leap.
-            return if leapt || self.prefers_laid(job) {
+            let sticks = job.params.hysteresis > 0.0;
+            return if leapt || sticks && self.prefers_laid(job) {
                 (false, Origin::Afresh)
             } else {
                 self.repair(job, cx)
@@ -94,7 +92,7 @@ impl Exact {
             let [from, to] = self.follow_ends(job.problem, Followed::Rival);
             known =
                 !self.leapt([from, to]) && same_class(&self.hinge.solids, &self.path, &self.laid);
-            // Whatever leads between the new ends leads between the old ones by way of them.
+            // It can hardly have become shorter than by what its ends moved.
             if known && length(&self.rival) - (from + to) >= enough {
                 std::mem::swap(&mut self.path, &mut self.kept);
                 return (true, origin);
@@ -113,7 +111,7 @@ impl Exact {
         if !better {
             std::mem::swap(&mut self.path, &mut self.kept);
         }
-        if passes {
+        if passes && !cx.stopped() {
             self.rival.extend_from_slice(&self.kept);
             self.rival_in = stamp;
         }
@@ -121,8 +119,9 @@ impl Exact {
     }
 
     /// Puts the last path, or its rival, into `path`, its ends where they are now: all else stays if that
-    /// keeps its class, for near a minimum Newton's first step is best; else with a straight piece to
-    /// each. Says how far the ends went.
+    /// keeps its class, for near a minimum Newton's first step is best; else, or where there are not as
+    /// many points as are laid out, with a straight piece to each and points spread evenly. Says how far
+    /// the ends went.
     fn follow_ends(&mut self, problem: &WorldProblem, followed: Followed) -> [f64; 2] {
         let old = match followed {
             Followed::Last => &self.last,
@@ -140,17 +139,16 @@ impl Exact {
         self.path.extend(old.iter().take(2 * n - 2).skip(2));
         self.path.extend([ends[1].x, ends[1].y]);
         let moved = by.map(|by| by.norm());
-        if moved.iter().all(|by| *by <= 0.0) {
+        let is_as_long = self.path.len() == self.laid.len();
+        if is_as_long && moved.iter().all(|by| *by <= 0.0) {
             return moved;
         }
         self.joined.clear();
         self.joined.extend([ends[0].x, ends[0].y]);
         self.joined.extend_from_slice(old);
         self.joined.extend([ends[1].x, ends[1].y]);
-        if !same_class(&self.hinge.solids, &self.path, &self.joined) {
-            self.corners.clear();
-            self.corners.extend(points(&self.joined));
-            lay(&self.corners, n.saturating_sub(2), &mut self.path);
+        if !is_as_long || !same_class(&self.hinge.solids, &self.path, &self.joined) {
+            respace(&self.joined, self.laid.len() / 2, &mut self.path);
         }
         moved
     }
