@@ -148,22 +148,22 @@ impl Exact {
             potential,
             distance: guide.distance,
         };
-        let mut origin = Origin::Afresh;
-        let mut good = false;
+        let mut origin = None;
         if warm && !self.last.is_empty() {
-            (good, origin) = self.keep_on(&mut job, cx);
+            origin = self.keep_on(&mut job, cx);
         }
-        if !good && !cx.stopped() {
-            origin = Origin::Afresh;
+        if origin.is_none() && !cx.stopped() {
             self.path.clone_from(&self.laid);
-            good = self.improve(&mut job, true, cx).is_some();
+            let steps = self.improve(&mut job, true, cx);
+            origin = steps.map(|_| Origin::Afresh);
         }
-        let path = if good {
+        let path = if origin.is_some() {
             points(&self.path).collect()
         } else {
             cx.note("fallback", "the exact shortest path: no smooth one passed");
             flattened(problem, &guide)
         };
+        let origin = origin.unwrap_or(Origin::Afresh);
         self.reclaim(guide);
         let finished = !cx.stopped();
         self.close(problem, path, origin, finished, cx)

@@ -13,44 +13,42 @@ enum Followed {
 }
 
 impl Exact {
-    /// Tries to keep to the last path's side of things. Says whether `path` is good now.
+    /// Tries to keep to the last path's side of things. Says how `path` came about; nothing if it is
+    /// no good.
     pub(super) fn keep_on(
         &mut self,
         job: &mut Job<'_>,
         cx: &mut Context<'_, WorldProblem>,
-    ) -> (bool, Origin) {
+    ) -> Option<Origin> {
         let moved = self.follow_ends(job.problem, Followed::Last);
         let leapt = self.leapt(moved);
         if same_class(&self.hinge.solids, &self.path, &self.laid) {
             // The exact path may be the better beginning after a leap.
             let sticks = job.params.hysteresis > 0.0;
             return if leapt || sticks && self.prefers_laid(job) {
-                (false, Origin::Afresh)
+                None
             } else {
                 self.repair(job, cx)
             };
         }
         if job.params.hysteresis <= 0.0 {
-            return (false, Origin::Afresh);
+            return None;
         }
-        let (good, origin) = self.improve_warm(job, cx);
-        if !good {
-            return (false, Origin::Afresh);
-        }
+        let origin = self.improve_warm(job, cx)?;
         let enough = length(&self.path) * (1.0 - job.params.hysteresis);
         // What is laid out is hardly longer than any path of its class can be short.
         if length(&self.laid) >= enough {
-            return (true, origin);
+            return Some(origin);
         }
         self.challenge(job, enough, origin, cx)
     }
 
     /// Improves the last path in `path`, which is of the exact path's class. A class may hold two valleys:
     /// where nothing is to be kept for its own sake, the exact path's is tried, too.
-    fn repair(&mut self, job: &mut Job<'_>, cx: &mut Context<'_, WorldProblem>) -> (bool, Origin) {
-        let (good, origin) = self.improve_warm(job, cx);
-        if !good || job.params.hysteresis > 0.0 {
-            return (good, origin);
+    fn repair(&mut self, job: &mut Job<'_>, cx: &mut Context<'_, WorldProblem>) -> Option<Origin> {
+        let origin = self.improve_warm(job, cx)?;
+        if job.params.hysteresis > 0.0 {
+            return Some(origin);
         }
         self.kept.clone_from(&self.path);
         self.path.clone_from(&self.laid);
@@ -59,21 +57,22 @@ impl Exact {
         std::mem::swap(&mut self.path, &mut self.kept);
         if passes && self.prefers_laid(job) {
             std::mem::swap(&mut self.path, &mut self.laid);
-            return (true, Origin::Afresh);
+            return Some(Origin::Afresh);
         }
-        (true, origin)
+        Some(origin)
     }
 
     fn improve_warm(
         &mut self,
         job: &mut Job<'_>,
         cx: &mut Context<'_, WorldProblem>,
-    ) -> (bool, Origin) {
-        match self.improve(job, false, cx) {
-            Some(0) => (true, Origin::Kept),
-            Some(_) => (true, Origin::Repaired),
-            None => (false, Origin::Afresh),
-        }
+    ) -> Option<Origin> {
+        let steps = self.improve(job, false, cx)?;
+        Some(if steps == 0 {
+            Origin::Kept
+        } else {
+            Origin::Repaired
+        })
     }
 
     /// Tries whether the way of the exact path, which is another than `path`'s, comes out shorter than
@@ -84,7 +83,7 @@ impl Exact {
         enough: f64,
         origin: Origin,
         cx: &mut Context<'_, WorldProblem>,
-    ) -> (bool, Origin) {
+    ) -> Option<Origin> {
         std::mem::swap(&mut self.path, &mut self.kept);
         let stamp = Some(job.problem.world().stamp());
         let mut known = !self.rival.is_empty() && self.rival_in == stamp;
@@ -95,7 +94,7 @@ impl Exact {
             // It can hardly have become shorter than by what its ends moved.
             if known && length(&self.rival) - (from + to) >= enough {
                 std::mem::swap(&mut self.path, &mut self.kept);
-                return (true, origin);
+                return Some(origin);
             }
         }
         if !known {
@@ -105,7 +104,7 @@ impl Exact {
         self.rival.clear();
         if !passes && !cx.stopped() {
             // Nothing smooth goes there, but the exact path does.
-            return (false, Origin::Afresh);
+            return None;
         }
         let better = passes && length(&self.path) < enough;
         if !better {
@@ -115,7 +114,7 @@ impl Exact {
             self.rival.extend_from_slice(&self.kept);
             self.rival_in = stamp;
         }
-        (true, if better { Origin::Afresh } else { origin })
+        Some(if better { Origin::Afresh } else { origin })
     }
 
     /// Puts the last path, or its rival, into `path`, its ends where they are now: all else stays if that
