@@ -1,11 +1,11 @@
 //! A choice between A* and jump point search.
 
-use crate::{AStar, Jps, last_path::LastPath};
+use crate::{AStar, Jps};
 use pf_core::{
     Claims, Context, InvalidParams, Planner, Problem, Replanner, Report, Revision, Stamp,
     Unsupported, params,
 };
-use pf_grid::{Grid, GridChange, GridProblem};
+use pf_grid::{Grid, GridChange, GridProblem, LastPath};
 
 /// The choice has no parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -66,13 +66,7 @@ impl Survey {
     /// one from 15 % on, at 1.4 turns a cell, where nearly all obstacles are alone, and at 40 % still
     /// half of them; a maze whose corridors are one cell wide has 2.6 turns a cell, and few are.
     fn of(grid: &Grid, jps: &mut Jps, problem: &GridProblem) -> Self {
-        let layout = grid.layout();
-        // Blocked cells that touch at most one other along a side.
-        let lone = layout.cells().filter(|&cell| {
-            let id = layout.id(cell);
-            !grid.is_free_id(id) && (grid.around_id(id) & 0x0f).count_ones() >= 3
-        });
-        let lone = lone.count() as u64;
+        let lone = lone(grid);
         let free = u64::from(grid.free_cells());
         let blocked = u64::from(grid.width()) * u64::from(grid.height()) - free;
         // How often a straight run would have to stop at a free cell, by direction.
@@ -89,6 +83,21 @@ impl Survey {
     }
 }
 
+/// How many blocked cells touch at most one other along a side.
+fn lone(grid: &Grid) -> u64 {
+    let layout = grid.layout();
+    let pitch = layout.offsets()[1].cast_unsigned();
+    // Those of the border, blocked as well, touch two.
+    let words = (pitch..).step_by(64);
+    let words = words.take_while(|&id| (id as usize) < layout.len());
+    let count = words.map(|id| {
+        let [a, b, c, d] = [id - 1, id + 1, id - pitch, id + pitch].map(|id| grid.free_bits(id));
+        let three_free = a & b & (c | d) | c & d & (a | b);
+        u64::from((three_free & !grid.free_bits(id)).count_ones())
+    });
+    count.sum()
+}
+
 impl Auto {
     /// A planner.
     ///
@@ -101,7 +110,7 @@ impl Auto {
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.astar.bytes() + self.jps.bytes()
+        self.astar.bytes() + self.jps.bytes() + self.last.bytes()
     }
 
     /// What a problem's grid looks like; `None` if it has terrain.
@@ -183,5 +192,29 @@ impl Replanner<GridProblem> for Auto {
         }
         cx.note("replanned", "afresh");
         self.plan(problem, cx)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pf_grid::Cell;
+
+    #[test]
+    fn lone_cells_are_counted_wherever_words_begin() {
+        for (width, height) in [(1, 1), (1, 150), (150, 1), (63, 9), (64, 9), (131, 17)] {
+            let is_free = |cell: Cell| (cell.x * 7 + cell.y * 13 + cell.x * cell.y) % 5 > 1;
+            let grid = Grid::new(width, height, |cell| u8::from(is_free(cell))).unwrap();
+            let is_lone = |cell: &Cell| {
+                let sides = [(1, 0), (0, 1), (-1, 0), (0, -1)].map(|(dx, dy)| Cell {
+                    x: cell.x.wrapping_add_signed(dx),
+                    y: cell.y.wrapping_add_signed(dy),
+                });
+                let free = sides.iter().filter(|&&side| grid.is_free(side)).count();
+                !grid.is_free(*cell) && free >= 3
+            };
+            let count = grid.layout().cells().filter(is_lone).count() as u64;
+            assert_eq!(lone(&grid), count, "{width} x {height}");
+        }
     }
 }

@@ -4,7 +4,6 @@ mod auto;
 mod best_first;
 mod d_star_lite;
 mod jps;
-mod last_path;
 mod visibility_graph;
 
 pub use auto::{Auto, AutoParams};

@@ -294,6 +294,8 @@ pub(crate) fn settle_harmless<P: Problem>(stage: &Stage<'_, P>) -> Finding {
         // The world that comes next is the easiest to take for this one.
         let other = [&worlds[(i + 1) % worlds.len()], &stage.stranger];
         if let Some(other) = other.get(i % 3)
+            // Batches that change nothing leave the problem what it was.
+            && other.stamp() != problem.stamp()
             && let Some(run) = stage.settle(&mut live, other, &full)
         {
             no_work(&run).map_err(|how| format!("settling on another problem, {how}"))?;

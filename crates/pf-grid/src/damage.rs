@@ -1,6 +1,6 @@
 //! What changed since a distance field was made, and what that does to its distances.
 
-use crate::{Apart, GridProblem, Moves, Weights, Word};
+use crate::{Apart, GridProblem, Moves, Weights, Word, window::Window};
 
 /// The changes since distances to a goal were known, boiled down to what bounds the distances now.
 ///
@@ -37,13 +37,6 @@ struct Openings<W> {
     /// Scratch: a row, and a window.
     above: Vec<W>,
     spare: Vec<W>,
-}
-
-/// Columns and rows, first and last.
-#[derive(Clone, Copy, Debug, Default)]
-struct Window {
-    columns: [u32; 2],
-    rows: [u32; 2],
 }
 
 /// A window of that many places is looked at place by place however few changed cells there are,
@@ -369,42 +362,6 @@ impl<W: Word> Openings<W> {
                 });
             }
         }
-    }
-}
-
-impl Window {
-    fn hold(window: &mut Option<Self>, (x, y): (u32, u32)) {
-        let all = window.get_or_insert(Self {
-            columns: [x, x],
-            rows: [y, y],
-        });
-        all.columns = [all.columns[0].min(x), all.columns[1].max(x)];
-        all.rows = [all.rows[0].min(y), all.rows[1].max(y)];
-    }
-
-    fn with(self, other: Self) -> Self {
-        let mut all = Some(self);
-        Self::hold(&mut all, (other.columns[0], other.rows[0]));
-        Self::hold(&mut all, (other.columns[1], other.rows[1]));
-        all.unwrap_or(self)
-    }
-
-    fn width(self) -> usize {
-        (self.columns[1] - self.columns[0]) as usize + 1
-    }
-
-    #[cfg(test)]
-    fn has(self, (x, y): (u32, u32)) -> bool {
-        (self.columns[0]..=self.columns[1]).contains(&x)
-            && (self.rows[0]..=self.rows[1]).contains(&y)
-    }
-
-    fn places(self) -> usize {
-        self.width() * ((self.rows[1] - self.rows[0]) as usize + 1)
-    }
-
-    fn place(self, (x, y): (u32, u32)) -> usize {
-        (y - self.rows[0]) as usize * self.width() + (x - self.columns[0]) as usize
     }
 }
 

@@ -46,8 +46,8 @@ impl<'d, W: Word> Downhill<'d, W> {
         }
         let mut ways = legal;
         while ways != 0 {
-            let k = ways.trailing_zeros();
-            ways &= ways - 1;
+            let k = ways.ilog2();
+            ways &= !(1 << k);
             if let Some(on) = leads(k) {
                 return Some(on);
             }

@@ -190,6 +190,16 @@ impl Grid {
         self.free[id as usize / 64] >> (id % 64) & 1 == 1
     }
 
+    /// Which of 64 ids from this one on are free cells, a bit each; none beyond the last.
+    #[inline]
+    #[must_use]
+    pub fn free_bits(&self, first: u32) -> u64 {
+        let (at, shift) = (first as usize / 64, first % 64);
+        let word = |at| self.free.get(at).copied().unwrap_or(0);
+        // By 63 and one more, as nothing shifts by 64.
+        word(at) >> shift | word(at + 1) << (63 - shift) << 1
+    }
+
     /// The directions in which the neighbour of the cell with this id is free.
     #[inline]
     #[must_use]
@@ -197,11 +207,23 @@ impl Grid {
         self.around[id as usize]
     }
 
+    /// The same of all ids.
+    #[inline]
+    pub(crate) fn around(&self) -> &[u8] {
+        &self.around
+    }
+
     /// The cost of the cell with this id.
     #[inline]
     #[must_use]
     pub fn cost_id(&self, id: u32) -> u8 {
         self.terrain.get(id as usize).copied().unwrap_or(1)
+    }
+
+    /// The sum of the costs of two cells: what a step between them costs, in half units of its length.
+    #[inline]
+    pub(crate) fn sum_of_costs(&self, from: u32, to: u32) -> u64 {
+        u64::from(self.cost_id(from)) + u64::from(self.cost_id(to))
     }
 
     /// What a step costs between neighbouring cells.
@@ -319,14 +341,39 @@ impl Grid {
 
     /// Fills `around` from the free bits.
     fn look_around(&mut self) {
-        let offsets = self.layout.offsets();
-        for cell in self.layout.cells() {
-            let id = self.layout.id(cell);
-            let bit = |offset| u8::from(self.is_free_id(id.wrapping_add_signed(offset)));
-            self.around[id as usize] = (0..8).fold(0, |set, k| set | bit(offsets[k]) << k);
+        /// Of the 64 cells that a word of bits shows, all but the first and the last have both sides.
+        const INNER: u32 = 62;
+        let (width, pitch) = (self.width(), self.layout.offsets()[1].cast_unsigned());
+        for y in 0..self.height() {
+            for x in (0..width).step_by(INNER as usize) {
+                let id = self.layout.id(Cell { x, y });
+                let mut rows = [id - pitch, id, id + pitch].map(|id| self.free_bits(id - 1));
+                let end = id + INNER.min(width - x);
+                for around in &mut self.around[id as usize..end as usize] {
+                    let [above, beside, below] = rows.map(|row| (row & 7) as usize);
+                    *around = AROUND[above | beside << 3 | below << 6];
+                    rows = rows.map(|row| row >> 1);
+                }
+            }
         }
     }
 }
+
+/// The free neighbours by nine bits: of the cells above, three from west to east, of those beside, and of
+/// those below.
+const AROUND: [u8; 512] = {
+    let mut table = [0; 512];
+    let mut at = 0;
+    while at < 512 * 8 {
+        let (bits, k) = (at / 8, at % 8);
+        let (dx, dy) = DIRECTIONS[k];
+        if bits >> (3 * (dy + 1) + dx + 1) & 1 == 1 {
+            table[bits] |= 1 << k;
+        }
+        at += 1;
+    }
+    table
+};
 
 fn check_cost(cost: u8) -> Result<(), InvalidProblem> {
     if (1..=254).contains(&cost) {
@@ -396,6 +443,38 @@ mod tests {
         assert_eq!(grid.census, fresh.census);
         assert_eq!(grid, fresh);
         assert_eq!(grid.to_string(), "#...\n..7.\n...#\n");
+    }
+
+    #[test]
+    fn every_cell_knows_its_neighbours_wherever_words_begin() {
+        for (width, height) in [
+            (1, 200),
+            (200, 1),
+            (61, 9),
+            (62, 9),
+            (63, 9),
+            (64, 9),
+            (190, 7),
+        ] {
+            let grid = Grid::new(width, height, |cell| {
+                u8::from((cell.x * 7 + cell.y * 13 + cell.x * cell.y) % 5 > 1)
+            })
+            .unwrap();
+            for cell in grid.layout.cells() {
+                let around = DIRECTIONS.iter().enumerate().map(|(k, &(dx, dy))| {
+                    let near = Cell {
+                        x: cell.x.wrapping_add_signed(dx),
+                        y: cell.y.wrapping_add_signed(dy),
+                    };
+                    u8::from(grid.is_free(near)) << k
+                });
+                assert_eq!(
+                    grid.around_id(grid.layout.id(cell)),
+                    around.sum::<u8>(),
+                    "{cell}"
+                );
+            }
+        }
     }
 
     #[test]

@@ -108,36 +108,22 @@ impl Problem for GridProblem {
         if last != self.goal {
             return Err(Violation::WrongGoal);
         }
-        let (layout, uniform) = (self.grid.layout(), self.grid.is_uniform());
-        let (mut straight, mut diagonal) = (0, 0);
-        let mut id = layout.id(first);
-        for (at, pair) in path.windows(2).enumerate() {
-            let (from, to) = (pair[0], pair[1]);
-            let k = direction(from, to);
-            let legal = self.moves.legal(self.grid.around_id(id));
-            // The border is never free, so no legal step leaves the grid.
-            if u32::from(legal) >> k & 1 == 0 {
-                return Err(if self.grid.is_free(to) {
-                    Violation::IllegalMove { at }
-                } else {
-                    Violation::Collision { at }
-                });
-            }
-            let next = layout.id(to);
-            let cost = if uniform {
-                2
-            } else {
-                u64::from(self.grid.cost_id(id)) + u64::from(self.grid.cost_id(next))
-            };
-            if k < 4 {
-                straight += cost;
-            } else {
-                diagonal += cost;
-            }
-            id = next;
+        let steps = Steps::of(self);
+        let (cost, all_legal) = if self.grid.is_uniform() {
+            steps.cost(path, |_, _| 2)
+        } else {
+            steps.cost(path, |from, to| self.grid.sum_of_costs(from, to))
+        };
+        if all_legal {
+            return Ok(cost);
         }
-        let cost = GridCost { straight, diagonal };
-        Ok(cost)
+        let is_illegal = |pair: &[Cell]| !steps.cost(pair, |_, _| 0).1;
+        let at = path.windows(2).position(is_illegal).unwrap_or_default();
+        Err(if self.grid.is_free(path[at + 1]) {
+            Violation::IllegalMove { at }
+        } else {
+            Violation::Collision { at }
+        })
     }
 
     fn apply(&mut self, changes: &[GridChange]) -> Result<(), InvalidProblem> {
@@ -182,28 +168,75 @@ impl Problem for GridProblem {
     }
 }
 
-/// In which of the [`DIRECTIONS`] the step goes; 8 if it is no step to a neighbour.
-#[inline]
-fn direction(from: Cell, to: Cell) -> u32 {
-    const STEPS: [u32; 9] = {
-        let mut steps = [8; 9];
-        let mut k = 0;
-        while k < 8 {
-            let (dx, dy) = DIRECTIONS[k as usize];
-            #[expect(clippy::cast_sign_loss, reason = "0 to 8")]
-            let place = (3 * (dy + 1) + dx + 1) as usize;
-            steps[place] = k;
-            k += 1;
-        }
-        steps
-    };
-    let dx = to.x.wrapping_sub(from.x).wrapping_add(1);
-    let dy = to.y.wrapping_sub(from.y).wrapping_add(1);
-    if dx > 2 || dy > 2 {
-        return 8;
-    }
-    STEPS[(3 * dy + dx) as usize]
+/// The judge's view of a map. It looks at a step without a branch, and at a path to its end whatever it
+/// finds, as nearly all paths are good.
+pub(crate) struct Steps<'g> {
+    around: &'g [u8],
+    pitch: u32,
+    /// By the free neighbours of a cell: a bit for the place of each legal one.
+    legal: &'static [u16; 256],
 }
+
+impl<'g> Steps<'g> {
+    pub(crate) fn of(problem: &'g GridProblem) -> Self {
+        Self {
+            around: problem.grid.around(),
+            pitch: problem.grid.layout().offsets()[1].cast_unsigned(),
+            legal: &LEGAL[problem.moves as usize],
+        }
+    }
+
+    /// What a path costs whose first cell is free, and whether all its steps are legal.
+    #[inline]
+    pub(crate) fn cost(&self, path: &[Cell], cost: impl Fn(u32, u32) -> u64) -> (GridCost, bool) {
+        const ONES: u64 = 1 << 32 | 1;
+        // Rows in the upper half, columns in the lower one. What the lower half borrows when it falls
+        // below nothing leaves it far too large.
+        let packed = |cell: Cell| u64::from(cell.y) << 32 | u64::from(cell.x);
+        // Of what is no cell the id of another, or none.
+        let id = |cell: Cell| {
+            let row = cell.y.wrapping_add(1).wrapping_mul(self.pitch);
+            row.wrapping_add(cell.x).wrapping_add(1)
+        };
+        let (mut all, mut diagonal, mut far, mut legal) = (0, 0, 0, 1);
+        let Some((&first, rest)) = path.split_first() else {
+            return (GridCost::ZERO, true);
+        };
+        let (mut from, mut from_id) = (packed(first), id(first));
+        for &cell in rest {
+            let (to, to_id) = (packed(cell), id(cell));
+            let off = to.wrapping_add(ONES).wrapping_sub(from);
+            far |= off;
+            let place = (off >> 30 | off) & 15;
+            // The border is never free, so no legal step leaves the grid.
+            let around = self.around.get(from_id as usize).copied().unwrap_or(0);
+            legal &= self.legal[usize::from(around)] >> place;
+            let cost = cost(from_id, to_id);
+            all += cost;
+            // Those in even columns and rows.
+            diagonal += if place & 5 == 0 { cost } else { 0 };
+            (from, from_id) = (to, to_id);
+        }
+        let straight = all - diagonal;
+        let is_legal = legal == 1 && far & !(3 * ONES) == 0;
+        (GridCost { straight, diagonal }, is_legal)
+    }
+}
+
+/// By rule and free neighbours, the legal steps: bit `4 (dy + 1) + dx + 1` for each.
+const LEGAL: [[u16; 256]; 4] = {
+    let mut tables = [[0; 256]; 4];
+    let mut at = 0;
+    while at < 4 * 256 * 8 {
+        let (rule, around, k) = (at / 8 / 256, at / 8 % 256, at % 8);
+        #[expect(clippy::cast_possible_truncation, reason = "below 256")]
+        let is_legal = Moves::ALL[rule].legal(around as u8) >> k & 1;
+        let (dx, dy) = DIRECTIONS[k];
+        tables[rule][around] |= (is_legal as u16) << (4 * (dy + 1) + dx + 1);
+        at += 1;
+    }
+    tables
+};
 
 #[cfg(test)]
 mod tests {
@@ -250,6 +283,75 @@ mod tests {
             judge(&[(0, 0), (u32::MAX, 0), (2, 2)]),
             Violation::Collision { at: 0 }
         );
+    }
+
+    /// The mark of a path, by the definition: step by step, to the first that is not among a cell's
+    /// neighbours.
+    fn plainly(problem: &GridProblem, path: &[Cell]) -> Result<GridCost, Violation> {
+        let steps = path.windows(2).enumerate().map(|(at, pair)| {
+            let mut ways = problem.grid.neighbours(pair[0], problem.moves);
+            let way = ways.find(|&(cell, _)| cell == pair[1]);
+            way.map(|(_, cost)| cost)
+                .ok_or(if problem.grid.is_free(pair[1]) {
+                    Violation::IllegalMove { at }
+                } else {
+                    Violation::Collision { at }
+                })
+        });
+        steps.sum()
+    }
+
+    #[test]
+    fn a_look_without_branches_sees_what_a_plain_one_does() {
+        let mut random = 1u32;
+        let mut below = |n: u32| {
+            random = random.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+            (random >> 8) % n
+        };
+        let (mut right, mut wrong) = (0, 0);
+        for story in 0..20_000 {
+            let (width, height) = (1 + below(9), 1 + below(9));
+            let density = below(5);
+            let costs = if story % 2 == 0 { 1 } else { 3 };
+            let grid = Grid::new(width, height, |_| {
+                u8::try_from(u32::from(below(10) >= density) * (1 + below(costs))).unwrap()
+            });
+            let mut at = Cell::new(below(width), below(height));
+            let mut path = vec![at];
+            for _ in 0..below(12) {
+                // Once in a while to anywhere, the whole range of numbers included.
+                let off = if below(20) == 0 {
+                    [u32::MAX, 5, 1 << 31][below(3) as usize]
+                } else {
+                    1
+                };
+                let mut to = |at: u32| at.wrapping_add(below(3).wrapping_sub(1).wrapping_mul(off));
+                at = Cell {
+                    x: to(at.x),
+                    y: to(at.y),
+                };
+                path.push(at);
+            }
+            let goal = Cell::new(at.x.min(width - 1), at.y.min(height - 1));
+            let mut problem = GridProblem::new(grid.unwrap(), path[0], goal).unwrap();
+            problem = problem.with_moves(Moves::ALL[story % 4]);
+            if !problem.grid.is_free(path[0]) || at != goal {
+                path.truncate(1);
+                problem.goal = path[0];
+                let is_free = problem.grid.is_free(path[0]);
+                let mark = if is_free {
+                    Ok(GridCost::ZERO)
+                } else {
+                    Err(Violation::WrongStart)
+                };
+                assert_eq!(problem.judge(&path), mark);
+                continue;
+            }
+            let mark = plainly(&problem, &path);
+            assert_eq!(problem.judge(&path), mark, "{path:?} on\n{}", problem.grid);
+            if mark.is_ok() { right += 1 } else { wrong += 1 }
+        }
+        assert!(right > 1_000 && wrong > 2_000, "{right} {wrong}");
     }
 
     #[test]

@@ -1,4 +1,4 @@
-use crate::{Cell, Grid, Moves, Word};
+use crate::{Cell, Grid, GridCost, Moves, Word};
 
 /// What steps weigh on a grid, in a search that counts in a [`Word`].
 ///
@@ -76,6 +76,18 @@ impl Weights {
             .iter()
             .any(|&offset| is_straight(offset));
         self.step(grid, from, to, if k { 0 } else { 4 })
+    }
+
+    /// What a path weighs that costs so much; `None` beyond [`Word::LIMIT`].
+    #[must_use]
+    pub fn of_cost<W: Word>(&self, cost: GridCost) -> Option<W> {
+        let half = if self.uniform { 2 } else { 1 };
+        let [straight, diagonal] = [cost.straight / half, cost.diagonal / half];
+        let weight =
+            u128::from(straight) * W::STRAIGHT.wide() + u128::from(diagonal) * W::DIAGONAL.wide();
+        let times = |length: W, n: u64| Some(length.times(u32::try_from(n).ok()?));
+        (weight < W::LIMIT.wide())
+            .then(|| Some(times(W::STRAIGHT, straight)? + times(W::DIAGONAL, diagonal)?))?
     }
 
     /// The heuristic of A*: from an id, the weight of the shortest way to `goal` if nothing stood

@@ -300,6 +300,34 @@ fn a_useless_door_after_a_useful_one() {
     assert_eq!(proven(&problem, &report), Some(expected));
 }
 
+/// A way that the fields know was cut when the last path was found. That path still goes, and opening the
+/// way again makes nothing better than the fields ever said.
+#[test]
+fn a_way_that_opens_again_is_not_news_and_yet_the_best() {
+    let drawing = "
+        .....
+        .@@@.
+        .....
+    ";
+    let (start, goal) = (Cell::new(0, 0), Cell::new(4, 0));
+    let problem = GridProblem::new(Grid::parse(drawing).unwrap(), start, goal);
+    let mut problem = problem.unwrap().with_moves(Moves::Orthogonal);
+    let mut planner = RfdField::default();
+    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    planner.settle(&problem, &mut Context::seeded(0));
+    let door = vec![Cell::new(2, 0)];
+    for (change, steps) in [
+        (GridChange::Blocked(door.clone()), 8),
+        (GridChange::Freed(door), 4),
+    ] {
+        let changes = [change];
+        let revision = problem.revise(&changes).unwrap();
+        let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+        let expected = GridCost::of_steps(steps, 0);
+        assert_eq!(proven(&problem, &report), Some(expected));
+    }
+}
+
 /// Either half of a way is short enough for 32 bits, and the whole is not.
 #[test]
 fn two_halves_that_are_joined_may_need_a_wider_word() {

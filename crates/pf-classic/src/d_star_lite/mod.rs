@@ -8,7 +8,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{GridChange, GridProblem};
+use pf_grid::{GridChange, GridProblem, LastPath};
 
 /// When to repair and when to start over.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +83,9 @@ pub struct DStarLite {
     debt: u64,
     /// The last answer, and to what.
     last: Option<(Stamp, Found)>,
+    /// Its path, which needs none of the above while nothing but the robot's place and blocked cells
+    /// change.
+    last_path: LastPath,
 }
 
 #[derive(Clone, Debug)]
@@ -132,7 +135,9 @@ impl DStarLite {
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        guided!(&self.width, guided => guided.bytes()) + self.pending.capacity() * size_of::<u32>()
+        guided!(&self.width, guided => guided.bytes())
+            + self.pending.capacity() * size_of::<u32>()
+            + self.last_path.bytes()
     }
 
     /// Makes the distances anew, such as can be repaired if repairs are to come.
@@ -233,19 +238,21 @@ impl DStarLite {
     }
 
     fn report(
-        &self,
+        &mut self,
         problem: &GridProblem,
         found: Found,
         cx: &mut Context<'_, GridProblem>,
     ) -> Report<GridProblem> {
-        match found {
+        let report = match found {
             Found::Path => {
                 let path = guided!(&self.width, guided => guided.path());
                 cx.answer(problem, path, Proof::Optimal)
             }
             Found::Nothing => cx.report(Outcome::Infeasible),
             Found::Cut | Found::TooFar => cx.report(Outcome::Unknown { attempt: None }),
-        }
+        };
+        self.last_path.remember(problem, &report);
+        report
     }
 }
 
@@ -329,6 +336,11 @@ impl Replanner<GridProblem> for DStarLite {
             self.known = None;
             cx.note("replanned", "afresh");
             return self.plan(problem, cx);
+        }
+        if !self.params.eager
+            && let Some(report) = self.last_path.answer(revision, cx)
+        {
+            return Ok(report);
         }
         if is_hopeless(problem) {
             return Ok(cx.report(Outcome::Infeasible));

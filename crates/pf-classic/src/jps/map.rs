@@ -49,22 +49,35 @@ impl JumpMap {
             .extend((0..256).map(|around| Self::stops_of(successors(moves), around)));
         self.pitch = layout.height() + 1;
         let turned = (layout.width() as usize + 2) * self.pitch as usize + 1;
+        // Where all is free around a cell, scans in some directions stop at each, in others at none.
+        let open = self.forced[0xff];
         for (k, stops) in self.stops.iter_mut().enumerate() {
-            let ids = if k.is_multiple_of(2) {
-                layout.len()
-            } else {
-                turned
-            };
+            let in_rows = k.is_multiple_of(2);
+            let ids = if in_rows { layout.len() } else { turned };
             stops.clear();
             stops.resize(ids / 64 + 1, u64::MAX);
+            if open >> k & 1 == 1 {
+                continue;
+            }
+            if in_rows {
+                for (first, word) in (0..).step_by(64).zip(stops) {
+                    *word = !grid.free_bits(first);
+                }
+            } else {
+                clear_columns(stops, grid, self.pitch);
+            }
         }
-        for cell in layout.cells() {
-            let id = layout.id(cell);
-            if grid.is_free_id(id) {
-                self.set(
-                    self.place(&layout, id),
-                    self.forced[usize::from(grid.around_id(id))],
-                );
+        for first in (0..layout.len()).step_by(64) {
+            #[expect(clippy::cast_possible_truncation, reason = "an id")]
+            let first = first as u32;
+            let mut free = grid.free_bits(first);
+            while free != 0 {
+                let id = first + free.trailing_zeros();
+                free &= free - 1;
+                let around = grid.around_id(id);
+                if around != 0xff {
+                    self.set(self.place(&layout, id), self.forced[usize::from(around)]);
+                }
             }
         }
         self.made = Some((grid.stamp(), moves, layout));
@@ -197,6 +210,47 @@ impl Place {
             id: self.id.wrapping_add_signed(id),
             turned: self.turned.wrapping_add_signed(turned),
         }
+    }
+}
+
+/// Clears the bits of free cells in an order by columns.
+fn clear_columns(bits: &mut [u64], grid: &Grid, pitch: u32) {
+    let layout = grid.layout();
+    let (width, height) = (layout.width(), layout.height());
+    for y in (0..height).step_by(64) {
+        for x in (0..width).step_by(64) {
+            let mut block = [0; 64];
+            for (row, y) in block.iter_mut().zip(y..height) {
+                let free = grid.free_bits(layout.id(Cell { x, y }));
+                // What lies beyond the row is the next one.
+                *row = free & u64::MAX >> 64u32.saturating_sub(width - x);
+            }
+            transpose(&mut block);
+            for (column, x) in block.into_iter().zip(x..width) {
+                let at = (x + 1) * pitch + y + 1;
+                let (word, shift) = (at as usize / 64, at % 64);
+                bits[word] &= !(column << shift);
+                if let Some(next) = bits.get_mut(word + 1) {
+                    *next &= !(column >> 1 >> (63 - shift));
+                }
+            }
+        }
+    }
+}
+
+/// Turns 64 rows of 64 bits into columns: halves change places, then the halves of halves.
+///
+/// Source: Warren, *Hacker's Delight*, 2002, section 7-3.
+fn transpose(block: &mut [u64; 64]) {
+    let (mut half, mut low) = (32, u64::MAX >> 32);
+    while half > 0 {
+        for row in (0..64).filter(|row| row & half == 0) {
+            let swapped = (block[row] >> half ^ block[row + half]) & low;
+            block[row] ^= swapped << half;
+            block[row + half] ^= swapped;
+        }
+        half /= 2;
+        low ^= low << half;
     }
 }
 

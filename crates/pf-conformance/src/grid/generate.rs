@@ -175,6 +175,23 @@ pub(super) fn small_batch(rng: &mut PlanRng, problem: &GridProblem) -> Vec<GridC
     }]
 }
 
+/// What was closed opens again, and the other way round, start and goal spared: what a planner knew before
+/// the last batch holds again, and what it learnt by that batch does not.
+pub(super) fn undoing_batch(problem: &GridProblem, last: &[GridChange]) -> Vec<GridChange> {
+    use GridChange::{Blocked, Freed};
+    let ends = [problem.start(), problem.goal()];
+    let undo = |change: &GridChange| match change {
+        Blocked(cells) => Some(Freed(cells.clone())),
+        Freed(cells) => {
+            let mut cells = cells.clone();
+            cells.retain(|cell| !ends.contains(cell));
+            Some(Blocked(cells))
+        }
+        _ => None,
+    };
+    last.iter().rev().filter_map(undo).collect()
+}
+
 /// Start or goal blocked, freed, moved onto a blocked cell or onto each other; and often something
 /// else besides, which must not be forgotten while there is no way anyhow.
 pub(super) fn ends_batch(rng: &mut PlanRng, problem: &GridProblem) -> Vec<GridChange> {

@@ -2,7 +2,10 @@
 
 use super::{
     drawings::{DRAWN, drawing},
-    generate::{Kind, Recipe, calm_batch, ends_batch, random_batch, random_problem, small_batch},
+    generate::{
+        Kind, Recipe, calm_batch, ends_batch, random_batch, random_problem, small_batch,
+        undoing_batch,
+    },
     oracle,
 };
 use crate::{Case, Options, Plot, Story, Suite, Truth};
@@ -68,14 +71,20 @@ impl Suite for Grids {
         }
         let problem = random_problem(rng, &recipe);
         let name = format!("{:?} changes, {:?}, {}", plot, recipe.kind, recipe.moves);
-        Story::new(name, problem, batches, |now| match plot {
-            Plot::Mixed => {
-                let most = if rng.random_bool(0.1) { 200 } else { 20 };
-                calm_batch(rng, now, most)
-            }
-            Plot::Small => small_batch(rng, now),
-            Plot::Ends => ends_batch(rng, now),
-            Plot::Long => calm_batch(rng, now, 5),
+        let mut last = vec![];
+        Story::new(name, problem, batches, |now| {
+            let is_calm = matches!(plot, Plot::Mixed | Plot::Long);
+            last = match plot {
+                _ if is_calm && rng.random_bool(0.2) => undoing_batch(now, &last),
+                Plot::Mixed => {
+                    let most = if rng.random_bool(0.1) { 200 } else { 20 };
+                    calm_batch(rng, now, most)
+                }
+                Plot::Small => small_batch(rng, now),
+                Plot::Ends => ends_batch(rng, now),
+                Plot::Long => calm_batch(rng, now, 5),
+            };
+            last.clone()
         })
     }
 

@@ -5,8 +5,8 @@ use super::{
     chain::Chain,
     patch::Sight,
 };
-use pf_core::{Context, Problem};
-use pf_grid::{Distances, End, GridProblem, Weights, Word};
+use pf_core::Context;
+use pf_grid::{Distances, End, GridCost, GridProblem, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +43,16 @@ struct Way<W> {
     holds: W,
 }
 
+/// The way that one over freed cells is to beat.
+#[derive(Clone, Copy, Debug)]
+enum Old<W> {
+    None,
+    /// Down a field; `path` holds it.
+    Intact(Way<W>),
+    /// The last path, and what it weighs.
+    Held(W),
+}
+
 /// A change of more cells than this, and than one in so many, is large.
 const FEW: usize = 100;
 const LARGE: usize = 64;
@@ -73,10 +83,11 @@ impl<W: Word> Basin<W> {
         })
     }
 
-    /// Answers, and says how.
+    /// Answers, and says how. If the last path is `held`, it is legal still, and costs that.
     pub(super) fn answer(
         &mut self,
         problem: &GridProblem,
+        held: Option<GridCost>,
         cx: &mut Context<'_, GridProblem>,
     ) -> (Found, How) {
         if !Distances::<W>::fit(problem) {
@@ -85,49 +96,50 @@ impl<W: Word> Basin<W> {
         self.layout = Some(*problem.grid().layout());
         self.ends = [problem.start(), problem.goal()];
         let before = cx.stats().expanded;
-        let (found, how) = self.find(problem, cx);
+        let (found, how) = self.find(problem, held, cx);
         self.debt += cx.stats().expanded - before;
-        self.spare.clear();
-        self.spare.shrink();
-        self.last.shrink();
         self.marks.shrink();
-        if matches!(found, Found::Path | Found::Nothing) {
-            self.answered = Some((problem.start(), problem.goal()));
-            if found == Found::Nothing {
-                self.last.clear();
-            }
+        if found == Found::Nothing {
+            self.apart = Some(self.ends);
         }
         (found, how)
     }
 
-    fn find(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> (Found, How) {
+    fn find(
+        &mut self,
+        problem: &GridProblem,
+        held: Option<GridCost>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> (Found, How) {
+        if self.apart == Some([problem.start(), problem.goal()]) {
+            return (Found::Nothing, How::Kept);
+        }
         let mut ways = [self.way(problem, false), self.way(problem, true)];
+        let held = held.and_then(|cost| Weights::of(problem.grid()).of_cost::<W>(cost));
+        if let (Some(weight), [Some(to_goal), Some(to_start)]) = (held, ways)
+            // Else an old way that was cut when the last path was found may be open again.
+            && weight <= to_goal.whole
+            && !self.is_large(&ways)
+        {
+            let old = Old::Held(weight);
+            if let Some(answer) = self.over_freed(problem, [to_start, to_goal], old, cx) {
+                return answer;
+            }
+        }
         // Exact fields first.
         ways.sort_by_key(|way| way.is_none_or(|way| self.sides[way.side].since < self.log.len()));
         let (found, intact) = self.read_off(problem, &mut ways);
         if let Some(found) = found {
             return (found, How::Kept);
         }
-        if self.is_last_still_best(problem) {
-            let found = if self.last.is_none() {
-                Found::Nothing
-            } else {
-                Found::Path
-            };
-            return (found, How::Kept);
-        }
         if self.is_large(&ways) {
             return self.afar(problem, cx);
         }
         if let [Some(a), Some(b)] = ways {
-            let (to_start, to_goal) = if a.is_backward { (a, b) } else { (b, a) };
-            let sides = [&self.sides[to_start.side], &self.sides[to_goal.side]];
-            let one_basis = sides[0].since == sides[1].since;
-            if one_basis && (intact.is_some() || !sides[0].closed) {
-                let found = self.over_freed(problem, [to_start, to_goal], intact, cx);
-                if let Some(answer) = found {
-                    return answer;
-                }
+            let both = if a.is_backward { [a, b] } else { [b, a] };
+            let old = intact.map_or(Old::None, Old::Intact);
+            if let Some(answer) = self.over_freed(problem, both, old, cx) {
+                return answer;
             }
         }
         let nearer = ways.into_iter().flatten().min_by_key(|way| way.holds);
@@ -147,7 +159,7 @@ impl<W: Word> Basin<W> {
     }
 
     /// What the fields say without a search; else an old way that still holds and may no longer be
-    /// the best, which `spare` then holds.
+    /// the best, which `path` then holds.
     fn read_off(
         &mut self,
         problem: &GridProblem,
@@ -162,10 +174,10 @@ impl<W: Word> Basin<W> {
                 }
                 continue;
             }
-            let spare = &mut self.spare;
-            spare.begin(way.from);
+            let path = &mut self.path;
+            path.begin(way.from);
             let downhill = side.field.downhill(problem);
-            let end = downhill.go(way.from, |k| spare.push(k));
+            let end = downhill.go(way.from, |k| path.push(k));
             way.holds = way.whole - side.field.at(end);
             if end == way.root {
                 if is_proof {
@@ -178,35 +190,11 @@ impl<W: Word> Basin<W> {
         (None, None)
     }
 
-    /// The way that `spare` holds becomes the answer.
+    /// The way in `path` becomes the answer.
     fn accept(&mut self, problem: &GridProblem, is_backward: bool) {
         if is_backward {
-            self.spare.turn(problem.grid().layout().id(problem.start()));
+            self.path.turn(problem.grid().layout().id(problem.start()));
         }
-        std::mem::swap(&mut self.last, &mut self.spare);
-    }
-
-    /// Whether the last answer is the answer, as far as it still goes: nothing was opened since, and
-    /// the rest of a shortest path is one.
-    fn is_last_still_best(&mut self, problem: &GridProblem) -> bool {
-        let Some((start, goal)) = self.answered else {
-            return false;
-        };
-        if goal != problem.goal() {
-            return false;
-        }
-        if self.last.is_none() {
-            return start == problem.start();
-        }
-        let layout = problem.grid().layout();
-        if !self.last.begin_at(layout.id(problem.start()), layout) {
-            return false;
-        }
-        if problem.judge(&self.path(problem)).is_ok() {
-            return true;
-        }
-        self.answered = None;
-        false
     }
 
     /// What a way over freed cells costs, against the old one: see [`Patch`]. `None` if that proves
@@ -215,16 +203,24 @@ impl<W: Word> Basin<W> {
         &mut self,
         problem: &GridProblem,
         [to_start, to_goal]: [Way<W>; 2],
-        intact: Option<Way<W>>,
+        old: Old<W>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<(Found, How)> {
         let [starts, goals] = [&self.sides[to_start.side], &self.sides[to_goal.side]];
+        let is_known = !matches!(old, Old::None) || !starts.closed;
+        if starts.since != goals.since || !is_known {
+            return None;
+        }
         let sight = Sight {
             problem,
             weights: goals.field.basis()?.1,
             sides: [starts, goals],
             ends: [to_start.root, to_goal.root],
-            best: intact.map_or(W::MAX, |way| way.whole),
+            best: match old {
+                Old::None => W::MAX,
+                Old::Intact(way) => way.whole,
+                Old::Held(weight) => weight,
+            },
         };
         if !self.patch.look(&sight, &self.log[starts.since..]) {
             return None;
@@ -234,12 +230,13 @@ impl<W: Word> Basin<W> {
         match end {
             End::Cut => Some((Found::Cut, How::Patched)),
             End::TooFar => Some((Found::TooFar, How::Patched)),
-            End::Exhausted => Some(match intact {
-                Some(way) => {
+            End::Exhausted => Some(match old {
+                Old::Intact(way) => {
                     self.accept(problem, way.is_backward);
                     (Found::Path, How::Kept)
                 }
-                None => (Found::Nothing, How::Kept),
+                Old::Held(_) => (Found::Held, How::Kept),
+                Old::None => (Found::Nothing, How::Kept),
             }),
             End::Goal(_) => {
                 // From the start down to where the freed cells begin, over them, and on.
@@ -252,7 +249,7 @@ impl<W: Word> Basin<W> {
                     return None;
                 }
                 way.turn(to_start.root);
-                self.spare = way;
+                self.path = way;
                 let marked = self.sides[to_goal.side].closed;
                 self.go_on(problem, to_goal, at, marked);
                 Some((Found::Path, How::Patched))
@@ -260,16 +257,16 @@ impl<W: Word> Basin<W> {
         }
     }
 
-    /// The answer is what `spare` holds, the way of the last search to where it arrived, and the
+    /// The answer is what `path` holds, the way of the last search to where it arrived, and the
     /// old way on from there: the one that was `marked`, if it was.
     fn go_on(&mut self, problem: &GridProblem, way: Way<W>, at: u32, marked: bool) {
-        let spare = &mut self.spare;
-        spare.push_all_back(self.search.back(at).map(|(.., k)| k));
+        let path = &mut self.path;
+        path.push_all_back(self.search.back(at).map(|(.., k)| k));
         let downhill = self.sides[way.side].field.downhill(problem);
         if marked && self.marks.holds(at) {
-            self.marks.go(&downhill, at, way.root, |k| spare.push(k));
+            self.marks.go(&downhill, at, way.root, |k| path.push(k));
         } else {
-            downhill.go(at, |k| spare.push(k));
+            downhill.go(at, |k| path.push(k));
         }
         self.accept(problem, way.is_backward);
     }
@@ -334,7 +331,7 @@ impl<W: Word> Basin<W> {
             }
             End::Exhausted => (Found::Nothing, How::Searched),
             End::Goal(_) => {
-                self.spare.begin(way.from);
+                self.path.begin(way.from);
                 self.go_on(problem, way, self.search.reached(), true);
                 (Found::Path, How::Searched)
             }
@@ -379,9 +376,9 @@ impl<W: Word> Basin<W> {
             End::TooFar => Found::TooFar,
             End::Exhausted => Found::Nothing,
             End::Goal(_) => {
-                self.spare.begin(layout.id(problem.start()));
+                self.path.begin(layout.id(problem.start()));
                 let back = self.search.back(goal);
-                self.spare.push_all_back(back.map(|(.., k)| k));
+                self.path.push_all_back(back.map(|(.., k)| k));
                 self.accept(problem, false);
                 Found::Path
             }

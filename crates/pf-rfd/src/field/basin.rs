@@ -13,8 +13,10 @@ use pf_grid::{
 /// What came of a question.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Found {
-    /// [`Basin::path`] is the answer.
+    /// [`Basin::take_path`] is the answer.
     Path,
+    /// The last answer's path is it still.
+    Held,
     /// Proof that there is none.
     Nothing,
     /// The budget ran out.
@@ -48,11 +50,10 @@ pub(super) struct Basin<W: Word> {
     pub(super) marks: Marks,
     /// Ids of cells that changed since the older field was exact.
     pub(super) log: Vec<u32>,
-    /// The last answer's path, from the start; none if there is none.
-    pub(super) last: Chain,
-    /// The ends that it answers, while nothing was opened since.
-    pub(super) answered: Option<(Cell, Cell)>,
-    pub(super) spare: Chain,
+    /// An answer's path, from the start; scratch.
+    pub(super) path: Chain,
+    /// Ends with no way between them, while nothing was opened since.
+    pub(super) apart: Option<[Cell; 2]>,
     pub(super) patch: Patch<W>,
     /// Ends of the last question, and in how many questions running each was elsewhere than before.
     pub(super) ends: [Cell; 2],
@@ -71,9 +72,8 @@ impl<W: Word> Default for Basin<W> {
             search: Search::default(),
             marks: Marks::default(),
             log: Vec::new(),
-            last: Chain::default(),
-            answered: None,
-            spare: Chain::default(),
+            path: Chain::default(),
+            apart: None,
             patch: Patch::default(),
             ends: [Cell::default(); 2],
             moves: [0; 2],
@@ -98,8 +98,7 @@ impl<W: Word> Basin<W> {
             + self.search.bytes()
             + self.marks.bytes()
             + self.patch.bytes()
-            + self.last.bytes()
-            + self.spare.bytes()
+            + self.path.bytes()
             + self.log.capacity() * size_of::<u32>()
     }
 
@@ -123,9 +122,12 @@ impl<W: Word> Basin<W> {
         (value < W::MAX).then(|| value.wide() as f64 / unit)
     }
 
-    /// The last answer's path.
-    pub(super) fn path(&self, problem: &GridProblem) -> Vec<Cell> {
-        self.last.cells(problem.grid().layout())
+    /// The path that was found, which is given away.
+    pub(super) fn take_path(&mut self, problem: &GridProblem) -> Vec<Cell> {
+        let cells = self.path.cells(problem.grid().layout());
+        self.path.clear();
+        self.path.shrink();
+        cells
     }
 
     /// Nothing is known.
@@ -134,7 +136,7 @@ impl<W: Word> Basin<W> {
         self.sides.iter_mut().for_each(|side| side.field.forget());
         self.log.clear();
         self.debt = 0;
-        self.answered = None;
+        self.apart = None;
         self.ends = [problem.start(), problem.goal()];
         self.moves = [0; 2];
     }
@@ -150,7 +152,7 @@ impl<W: Word> Basin<W> {
             return Found::TooFar;
         }
         match self.sweep(problem, 0, problem.goal(), cx) {
-            Swept::Whole => self.answer(problem, cx).0,
+            Swept::Whole => self.answer(problem, None, cx).0,
             Swept::TooFar => Found::TooFar,
             Swept::Cut | Swept::GaveUp => Found::Cut,
         }
@@ -191,7 +193,7 @@ impl<W: Word> Basin<W> {
                 GridChange::StartMoved(_) | GridChange::GoalMoved(_) => continue,
             };
             if opens {
-                self.answered = None;
+                self.apart = None;
             }
             for side in &mut self.sides {
                 side.opened |= opens;

@@ -55,22 +55,6 @@ impl Chain {
         self.steps.iter_mut().for_each(|step| *step ^= 2);
     }
 
-    /// Forgets what comes before an id, if the path leads over it.
-    pub(super) fn begin_at(&mut self, id: u32, layout: &Layout) -> bool {
-        let offsets = layout.offsets();
-        let (mut at, mut before) = (self.first, 0);
-        while at != id {
-            let Some(&step) = self.steps.get(before) else {
-                return false;
-            };
-            at = at.wrapping_add_signed(offsets[usize::from(step) & 7]);
-            before += 1;
-        }
-        self.steps.drain(..before);
-        self.first = id;
-        true
-    }
-
     /// The cells, the first one first; none if there is no path.
     pub(super) fn cells(&self, layout: &Layout) -> Vec<Cell> {
         if self.is_none() {

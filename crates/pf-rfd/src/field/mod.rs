@@ -12,7 +12,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{Cell, GridProblem, U48};
+use pf_grid::{Cell, GridProblem, Hold, LastPath, U48};
 
 /// When an [`RfdField`] repairs and when it sweeps.
 #[derive(Clone, Debug, PartialEq)]
@@ -83,6 +83,9 @@ pub struct RfdField {
     width: Width,
     /// What the changes are known up to.
     known: Option<Stamp>,
+    /// The last answer's path: while nothing but the robot's place and blocked cells change, no field
+    /// is asked.
+    last: LastPath,
 }
 
 #[derive(Clone, Debug)]
@@ -143,7 +146,7 @@ impl RfdField {
     /// Bytes of memory kept between calls.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        basin!(&self.width, basin => basin.bytes())
+        basin!(&self.width, basin => basin.bytes()) + self.last.bytes()
     }
 
     /// Works in the narrowest width that orders the paths there are exactly.
@@ -158,19 +161,23 @@ impl RfdField {
     }
 
     fn report(
-        &self,
+        &mut self,
         problem: &GridProblem,
         found: Found,
         cx: &mut Context<'_, GridProblem>,
     ) -> Report<GridProblem> {
-        match found {
+        let report = match found {
             Found::Path => {
-                let path = basin!(&self.width, basin => basin.path(problem));
+                let path = basin!(&mut self.width, basin => basin.take_path(problem));
                 cx.answer(problem, path, Proof::Optimal)
             }
             Found::Nothing => cx.report(Outcome::Infeasible),
-            Found::Cut | Found::TooFar => cx.report(Outcome::Unknown { attempt: None }),
-        }
+            Found::Held | Found::Cut | Found::TooFar => {
+                cx.report(Outcome::Unknown { attempt: None })
+            }
+        };
+        self.last.remember(problem, &report);
+        report
     }
 
     fn show(&self, cx: &mut Context<'_, GridProblem>) {
@@ -242,6 +249,7 @@ impl Replanner<GridProblem> for RfdField {
         };
         self.known = Some(problem.stamp());
         basin!(&mut self.width, basin => basin.tell(problem, changes));
+        let last = self.last.follow(revision);
         if is_hopeless(problem) {
             return Ok(cx.report(Outcome::Infeasible));
         }
@@ -249,11 +257,21 @@ impl Replanner<GridProblem> for RfdField {
             return Ok(cx.report(Outcome::Unknown { attempt: None }));
         }
         let mut how = "";
-        let found = self.in_width(|width| {
-            let (found, way) = basin!(width, basin => basin.answer(problem, cx));
-            how = way.name();
-            found
-        });
+        let found = if last == Hold::Best {
+            Found::Held
+        } else {
+            let held = (last == Hold::Legal).then(|| self.last.cost());
+            self.in_width(|width| {
+                let (found, way) = basin!(width, basin => basin.answer(problem, held, cx));
+                how = way.name();
+                found
+            })
+        };
+        if found == Found::Held
+            && let Some(report) = self.last.keep(problem, cx)
+        {
+            return Ok(report);
+        }
         cx.note("replanned", how);
         Ok(self.report(problem, found, cx))
     }

@@ -1,0 +1,106 @@
+//! What a remembered path is said to be, it is: by the judge, and by A*.
+
+use pf_classic::AStar;
+use pf_conformance::{grid::drawing, seeded};
+use pf_core::{Context, PlanRng, Planner, Problem};
+use pf_grid::{Cell, Grid, GridChange, GridProblem, Hold, LastPath, Moves};
+use rand::RngExt;
+
+/// Some cells, each next to the path as often as not.
+fn cells(rng: &mut PlanRng, problem: &GridProblem, path: &[Cell]) -> Vec<Cell> {
+    let (width, height) = (problem.grid().width(), problem.grid().height());
+    let count = rng.random_range(1..5);
+    let cell = |_| {
+        if rng.random() {
+            let near = path[rng.random_range(0..path.len())];
+            let mut off = |at: u32, size: u32| (at + rng.random_range(0..3)).clamp(1, size) - 1;
+            return Cell::new(off(near.x, width), off(near.y, height));
+        }
+        Cell::new(rng.random_range(0..width), rng.random_range(0..height))
+    };
+    (0..count).map(cell).collect()
+}
+
+fn change(rng: &mut PlanRng, problem: &GridProblem, path: &[Cell]) -> GridChange {
+    let along = path[rng.random_range(0..path.len().min(9))];
+    let cells = cells(rng, problem, path);
+    match rng.random_range(0..20) {
+        0..9 => GridChange::StartMoved(along),
+        9..15 => GridChange::Blocked(cells),
+        15 => GridChange::StartMoved(cells[0]),
+        16 | 17 => GridChange::Freed(cells),
+        18 => GridChange::GoalMoved(path[path.len() - 1]),
+        _ if rng.random() => GridChange::GoalMoved(cells[0]),
+        _ => GridChange::CostChanged(cells, rng.random_range(1..4)),
+    }
+}
+
+/// Of paths longer than what is looked at together, on open and on strewn maps, under all rules.
+#[test]
+fn a_path_is_kept_as_long_as_it_is_what_it_is_said_to_be_and_no_shorter() {
+    let mut rng = seeded(71);
+    let (mut best, mut legal, mut gone, mut broken) = (0, 0, 0, 0);
+    for story in 0..6_000 {
+        let (width, height) = (rng.random_range(5..90), rng.random_range(1..60));
+        let (walls, dear) = (rng.random_range(0..30), rng.random_range(0..20));
+        let map = Grid::new(width, height, |_| match rng.random_range(0..100) {
+            n if n < walls => 0,
+            n if story % 3 == 0 && n < walls + dear => rng.random_range(2..9),
+            _ => 1,
+        });
+        let moves = Moves::ALL[story % 4];
+        let ends = [Cell::new(0, 0), Cell::new(width - 1, height - 1)];
+        let mut problem = GridProblem::new(map.unwrap(), ends[0], ends[1])
+            .unwrap()
+            .with_moves(moves);
+        let mut last = LastPath::default();
+        let mut astar = AStar::default();
+        for step in 0..30 {
+            let fresh = astar.plan(&problem, &mut Context::seeded(0)).unwrap();
+            last.remember(&problem, &fresh);
+            let Some(solved) = fresh.outcome.solved() else {
+                break;
+            };
+            let mut path = solved.solution.clone();
+            // The same path through several revisions.
+            for _ in 0..4 {
+                let changes: Vec<_> = (0..rng.random_range(1..3))
+                    .map(|_| change(&mut rng, &problem, &path))
+                    .collect();
+                let revision = problem.revise(&changes).unwrap();
+                let hold = last.follow(&revision);
+                let fresh = astar.plan(&problem, &mut Context::seeded(0)).unwrap();
+                let optimum = fresh.outcome.solved().map(|solved| solved.cost);
+                let what = || format!("story {story}, step {step}\n{}", drawing(&problem));
+                let Some(left) = last.left() else {
+                    assert_eq!(hold, Hold::Gone, "{}", what());
+                    gone += 1;
+                    let harmless = changes.iter().all(|change| {
+                        matches!(change, GridChange::StartMoved(_) | GridChange::Blocked(_))
+                    });
+                    let at = path.iter().position(|&cell| cell == problem.start());
+                    if let (true, Some(at)) = (harmless, at) {
+                        let rest = path[at..].to_vec();
+                        assert!(problem.judge(&rest).is_err(), "{}", what());
+                        broken += 1;
+                    }
+                    break;
+                };
+                assert_eq!(problem.judge(&left.solution), Ok(left.cost), "{}", what());
+                match hold {
+                    Hold::Best => {
+                        assert_eq!(Some(left.cost), optimum, "{}", what());
+                        best += 1;
+                    }
+                    Hold::Legal => legal += 1,
+                    Hold::Gone => panic!("{}", what()),
+                }
+                path = left.solution;
+            }
+        }
+    }
+    assert!(
+        best > 20_000 && legal > 10_000 && gone > 10_000 && broken > 5_000,
+        "{best} {legal} {gone} {broken}"
+    );
+}

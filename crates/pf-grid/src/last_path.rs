@@ -1,0 +1,165 @@
+//! The last answer, for as long as nothing that happens can make another one better.
+
+use crate::{Cell, GridChange, GridCost, GridProblem, problem::Steps, window::Window};
+use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
+
+/// The last shortest path, and what is left of it.
+///
+/// Its end is a shortest path, too; and where cells are blocked, whatever else is left is no shorter than
+/// before. It was judged whole once, when it was found. After that the judge looks at the steps near cells
+/// that were blocked, as nothing else can make a step illegal.
+///
+/// ```
+/// use pf_core::{Context, Problem, Proof};
+/// use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem, Hold, LastPath};
+///
+/// let grid = Grid::open(5, 3).unwrap();
+/// let mut problem = GridProblem::new(grid, Cell::new(0, 1), Cell::new(4, 1)).unwrap();
+/// let across = (0..5).map(|x| Cell::new(x, 1)).collect();
+/// let report = Context::seeded(0).answer(&problem, across, Proof::Optimal);
+/// let mut last = LastPath::default();
+/// last.remember(&problem, &report);
+///
+/// let changes = [GridChange::StartMoved(Cell::new(1, 1)), GridChange::Blocked(vec![Cell::new(2, 0)])];
+/// assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Best);
+/// assert_eq!(last.left().unwrap().cost, GridCost::of_steps(3, 0));
+///
+/// let changes = [GridChange::Blocked(vec![Cell::new(3, 1)])];
+/// assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Gone);
+/// ```
+#[derive(Clone, Debug, Default)]
+pub struct LastPath {
+    /// Of the problem in which it was last known to hold.
+    known: Option<Stamp>,
+    path: Vec<Cell>,
+    /// Where in it the robot is.
+    at: usize,
+    /// Of what is left.
+    cost: GridCost,
+    /// Nothing was freed since.
+    is_best: bool,
+}
+
+/// What has become of a [`LastPath`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Hold {
+    /// What is left of it is a shortest path.
+    Best,
+    /// What is left of it is a path, and cells were freed, so that there may be a shorter one.
+    Legal,
+    /// It is forgotten.
+    Gone,
+}
+
+/// So long a path is remembered on any map,
+const SHORT: usize = 1 << 12;
+/// and one of a cell in so many on large ones: eight bytes a step are half a byte a cell.
+const SPARSE: usize = 16;
+/// So many steps are looked at together.
+const CHUNK: usize = 32;
+
+impl LastPath {
+    /// Bytes held.
+    #[must_use]
+    pub fn bytes(&self) -> usize {
+        self.path.capacity() * size_of::<Cell>()
+    }
+
+    /// Remembers what was answered, if it was proved, and short enough for the map.
+    pub fn remember(&mut self, problem: &GridProblem, report: &Report<GridProblem>) {
+        self.known = None;
+        if let Outcome::Optimal(best) = &report.outcome
+            && best.solution.len() <= SHORT.max(problem.grid().layout().len() / SPARSE)
+        {
+            self.known = Some(problem.stamp());
+            self.path.clone_from(&best.solution);
+            (self.at, self.cost, self.is_best) = (0, best.cost, true);
+        }
+    }
+
+    /// What has become of it now. If it is not told of a revision, it is gone at the next one.
+    pub fn follow(&mut self, revision: &Revision<'_, GridProblem>) -> Hold {
+        match self.hold(revision) {
+            Some(()) if self.is_best => Hold::Best,
+            Some(()) => Hold::Legal,
+            None => Hold::Gone,
+        }
+    }
+
+    fn hold(&mut self, revision: &Revision<'_, GridProblem>) -> Option<()> {
+        let changes = revision.since(self.known.take())?;
+        let problem = revision.problem();
+        let grid = problem.grid();
+        let mut blocked: Option<Window> = None;
+        for change in changes {
+            match change {
+                GridChange::StartMoved(_) => {}
+                GridChange::GoalMoved(goal) if Some(goal) == self.path.last() => {}
+                GridChange::Blocked(cells) => {
+                    for cell in cells {
+                        Window::hold(&mut blocked, (cell.x, cell.y));
+                    }
+                }
+                GridChange::Freed(_) => self.is_best = false,
+                GridChange::GoalMoved(_) | GridChange::CostChanged(..) => return None,
+            }
+        }
+        let left = &self.path[self.at..];
+        let gone = left.iter().position(|&cell| cell == problem.start())?;
+        let steps = Steps::of(problem);
+        let (walked, _) = steps.cost(&left[..=gone], |from, to| grid.sum_of_costs(from, to));
+        let left = &left[gone..];
+        let is_legal = |chunk: usize| {
+            let end = left.len().min(chunk + CHUNK + 1);
+            let cells = &left[chunk..end];
+            blocked.is_none_or(|blocked| !blocked.touches(cells)) || steps.cost(cells, |_, _| 0).1
+        };
+        if !grid.is_free(problem.start()) || !(0..left.len()).step_by(CHUNK).all(is_legal) {
+            return None;
+        }
+        self.at += gone;
+        self.cost.straight -= walked.straight;
+        self.cost.diagonal -= walked.diagonal;
+        self.known = Some(problem.stamp());
+        Some(())
+    }
+
+    /// What is left of it costs so much, if it holds.
+    #[must_use]
+    pub fn cost(&self) -> GridCost {
+        self.cost
+    }
+
+    /// What is left of it, if it holds.
+    #[must_use]
+    pub fn left(&self) -> Option<Solved<GridProblem>> {
+        self.known.map(|_| Solved {
+            solution: self.path[self.at..].to_vec(),
+            cost: self.cost,
+        })
+    }
+
+    /// Answers with what is left of it, if it holds, as what is best. The note `replanned` says `kept`.
+    pub fn keep(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Option<Report<GridProblem>> {
+        let best = self.left()?;
+        debug_assert_eq!(problem.judge(&best.solution), Ok(best.cost));
+        self.is_best = true;
+        cx.note("replanned", "kept");
+        cx.improved(|| best.clone());
+        Some(cx.report(Outcome::Optimal(best)))
+    }
+
+    /// Follows a revision, and answers if what is left is still best and the budget allows an iteration.
+    pub fn answer(
+        &mut self,
+        revision: &Revision<'_, GridProblem>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Option<Report<GridProblem>> {
+        let is_best = self.follow(revision) == Hold::Best && cx.proceed();
+        is_best.then(|| self.keep(revision.problem(), cx))?
+    }
+}

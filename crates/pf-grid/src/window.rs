@@ -1,0 +1,59 @@
+//! A rectangle of places that grows.
+
+use crate::Cell;
+
+/// Columns and rows, first and last.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Window {
+    pub(crate) columns: [u32; 2],
+    pub(crate) rows: [u32; 2],
+}
+
+impl Window {
+    /// Grows to hold a place.
+    pub(crate) fn hold(window: &mut Option<Self>, (x, y): (u32, u32)) {
+        let all = window.get_or_insert(Self {
+            columns: [x, x],
+            rows: [y, y],
+        });
+        all.columns = [all.columns[0].min(x), all.columns[1].max(x)];
+        all.rows = [all.rows[0].min(y), all.rows[1].max(y)];
+    }
+
+    /// Both, and what lies between them.
+    pub(crate) fn with(self, other: Self) -> Self {
+        let mut all = Some(self);
+        Self::hold(&mut all, (other.columns[0], other.rows[0]));
+        Self::hold(&mut all, (other.columns[1], other.rows[1]));
+        all.unwrap_or(self)
+    }
+
+    pub(crate) fn width(self) -> usize {
+        (self.columns[1] - self.columns[0]) as usize + 1
+    }
+
+    #[cfg(test)]
+    pub(crate) fn has(self, (x, y): (u32, u32)) -> bool {
+        (self.columns[0]..=self.columns[1]).contains(&x)
+            && (self.rows[0]..=self.rows[1]).contains(&y)
+    }
+
+    pub(crate) fn places(self) -> usize {
+        self.width() * ((self.rows[1] - self.rows[0]) as usize + 1)
+    }
+
+    /// Of a place within it the number, row by row.
+    pub(crate) fn place(self, (x, y): (u32, u32)) -> usize {
+        (y - self.rows[0]) as usize * self.width() + (x - self.columns[0]) as usize
+    }
+
+    /// Whether any of these cells, counted as the window is, lies in it or beside it.
+    pub(crate) fn touches(self, cells: &[Cell]) -> bool {
+        let beside =
+            |at: u32, [from, to]: [u32; 2]| at.wrapping_sub(from).wrapping_add(1) <= to - from + 2;
+        // To the end, without a branch: several cells at a time.
+        cells.iter().fold(false, |any, cell| {
+            any | (beside(cell.x, self.columns) & beside(cell.y, self.rows))
+        })
+    }
+}
