@@ -1,6 +1,6 @@
 //! The last answer, for as long as nothing that happens can make another one better.
 
-use crate::{Cell, GridChange, GridCost, GridProblem, problem::Steps, window::Window};
+use crate::{Cell, GridChange, GridCost, GridProblem, bend::bend, problem::Steps, window::Window};
 use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 
 /// The last shortest path, and what is left of it.
@@ -109,13 +109,27 @@ impl LastPath {
         let steps = Steps::of(problem);
         let (walked, _) = steps.cost(&left[..=gone], |from, to| grid.sum_of_costs(from, to));
         let left = &left[gone..];
-        let is_legal = |chunk: usize| {
-            let end = left.len().min(chunk + CHUNK + 1);
-            let cells = &left[chunk..end];
-            blocked.is_none_or(|blocked| !blocked.touches(cells)) || steps.cost(cells, |_, _| 0).1
-        };
-        if !grid.is_free(problem.start()) || !(0..left.len()).step_by(CHUNK).all(is_legal) {
+        let mut broken: Option<[usize; 2]> = None;
+        for chunk in (0..left.len()).step_by(CHUNK) {
+            let cells = &left[chunk..left.len().min(chunk + CHUNK + 1)];
+            let is_legal = |cells: &[Cell]| steps.cost(cells, |_, _| 0).1;
+            if blocked.is_some_and(|blocked| blocked.touches(cells)) && !is_legal(cells) {
+                for (at, _) in (chunk..)
+                    .zip(cells.windows(2))
+                    .filter(|(_, pair)| !is_legal(pair))
+                {
+                    broken = Some([broken.map_or(at, |[first, _]| first), at]);
+                }
+            }
+        }
+        if !grid.is_free(problem.start()) || !grid.is_free(problem.goal()) {
             return None;
+        }
+        if let Some(broken) = broken {
+            let left = &mut self.path[self.at + gone..];
+            if !grid.is_uniform() || !bend(&steps, left, broken) {
+                return None;
+            }
         }
         self.at += gone;
         self.cost.straight -= walked.straight;
