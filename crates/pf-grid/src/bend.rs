@@ -2,8 +2,11 @@
 
 use crate::{Cell, problem::Steps};
 
-/// So many steps before a break and after it are put in another order.
+/// So many steps before a break and after it are put in another order. In drives through a maze 12, 24 and
+/// 40 keep 8,779, 8,799 and 8,871 of some 16,600 paths; the work grows with the square.
 const REACH: usize = 16;
+/// The places from which the rest leads on fit a word a row.
+const _: () = assert!(3 * REACH < 64);
 
 /// A step: how many columns and rows on.
 type Way = (u32, u32);
@@ -61,7 +64,7 @@ pub(crate) fn bend(steps: &Steps<'_>, path: &mut [Cell], [first, last]: [usize; 
     let of_b = end - begin - of_a;
     // By steps of the first kind, a bit for each number of steps of the second from where the rest leads to
     // the end.
-    let mut leads = [0u128; 3 * REACH + 1];
+    let mut leads = [0u64; 3 * REACH + 1];
     for a in (0..=of_a).rev() {
         for b in (0..=of_b).rev() {
             let here = after(from, ways, [a, b]);

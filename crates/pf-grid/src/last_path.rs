@@ -7,7 +7,8 @@ use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 ///
 /// Its end is a shortest path, too; and where cells are blocked, whatever else is left is no shorter than
 /// before. It was judged whole once, when it was found. After that the judge looks at the steps near cells
-/// that were blocked, as nothing else can make a step illegal.
+/// that were blocked, as nothing else can make a step illegal. Where they are, and the map has no terrain,
+/// the path bends if the same steps in another order lead past: that costs what it did.
 ///
 /// ```
 /// use pf_core::{Context, Problem, Proof};

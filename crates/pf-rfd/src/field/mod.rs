@@ -42,7 +42,7 @@ params!(RfdFieldParams {
 /// from the end nearer the break goes as far as an old way on is intact. Where cells were freed, the
 /// two fields tell what a way over them would cost at the least: either none beats the old one, or a
 /// search that begins at the freed cells finds the best. The note `replanned` says how the answer
-/// came: `kept` (read off the fields), `patched` (over freed cells), `searched` (by a search that the
+/// came: `kept` (what is left of the last path, or read off the fields), `patched` (over freed cells), `searched` (by a search that the
 /// fields direct), or `afresh` (as A\*, for the fields say nothing, as when both ends moved and cells
 /// changed).
 ///
