@@ -109,3 +109,20 @@ fn a_path_is_kept_as_long_as_it_is_what_it_is_said_to_be_and_no_shorter() {
         .all(|(&count, least)| count > least);
     assert!(often, "{counts:?}");
 }
+
+/// The dear cell on the path is blocked, which makes the map plain, and a cheaper way opens with it.
+#[test]
+fn a_path_over_dear_cells_does_not_bend() {
+    let grid = Grid::parse(".5 #.").unwrap();
+    let problem = GridProblem::new(grid, Cell::new(0, 0), Cell::new(1, 1));
+    let mut problem = problem.unwrap().with_moves(Moves::Orthogonal);
+    let mut last = LastPath::default();
+    let fresh = AStar::default().plan(&problem, &mut Context::seeded(0));
+    last.remember(&problem, &fresh.unwrap());
+    let changes = [
+        GridChange::Freed(vec![Cell::new(0, 1)]),
+        GridChange::Blocked(vec![Cell::new(1, 0)]),
+    ];
+    assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Gone);
+    assert!(last.left().is_none());
+}

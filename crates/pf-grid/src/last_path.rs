@@ -39,6 +39,8 @@ pub struct LastPath {
     cost: GridCost,
     /// Nothing was freed since.
     is_best: bool,
+    /// The map had no terrain then: every step of the path costs its length.
+    is_plain: bool,
 }
 
 /// What has become of a [`LastPath`].
@@ -75,6 +77,7 @@ impl LastPath {
             self.known = Some(problem.stamp());
             self.path.clone_from(&best.solution);
             (self.at, self.cost, self.is_best) = (0, best.cost, true);
+            self.is_plain = problem.grid().is_uniform();
         }
     }
 
@@ -128,7 +131,9 @@ impl LastPath {
         }
         if let Some(broken) = broken {
             let left = &mut self.path[self.at + gone..];
-            if !grid.is_uniform() || !bend(&steps, left, broken) {
+            // What is dear may have been blocked meanwhile, or freed.
+            let is_plain = self.is_plain && grid.is_uniform();
+            if !is_plain || !bend(&steps, left, broken) {
                 return None;
             }
         }
