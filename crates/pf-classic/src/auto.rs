@@ -19,8 +19,8 @@ params!(AutoParams {});
 /// about, nearly every cell is one, and A* is faster by up to a quarter; on terrain there are none. The
 /// note `search` says which of the two answered, and why. A map is surveyed at the first query, and
 /// again when one cell in a hundred has changed. A replan keeps what is left of the last path, without a
-/// search, where nothing happened but that the robot followed it and cells were blocked beside it; the
-/// note `replanned` says `kept` or `afresh`.
+/// search, where nothing happened but that the robot followed it and cells were blocked beside it, or
+/// on it and it can bend ([`LastPath`]); the note `replanned` says `kept` or `afresh`.
 ///
 /// One iteration is one expansion of the search chosen.
 ///

@@ -10,13 +10,17 @@ pub struct Downhill<'d, W: Word> {
 }
 
 impl<'d, W: Word> Downhill<'d, W> {
+    /// Ahead of a way that begins: no direction.
+    pub const NOWHERE: u32 = 8;
+
     pub(crate) fn of(values: &'d [W::Kept], steps: Steps<'d>) -> Self {
         Self { values, steps }
     }
 
     /// The next id on the way down from one, and the direction of the step: `ahead` if that leads
-    /// there, so that ways are straight, else the first in the order of
-    /// [`DIRECTIONS`](crate::DIRECTIONS).
+    /// there, so that ways are straight, else the last in the order of
+    /// [`DIRECTIONS`](crate::DIRECTIONS), so diagonal ones first. [`NOWHERE`](Self::NOWHERE) is ahead of
+    /// nothing.
     #[inline]
     #[must_use]
     pub fn next(&self, id: u32, ahead: u32) -> Option<(u32, u32)> {
@@ -66,7 +70,7 @@ impl<'d, W: Word> Downhill<'d, W> {
     /// or where there is no way on.
     #[inline]
     pub fn go(&self, from: u32, mut show: impl FnMut(u32)) -> u32 {
-        let Some((mut id, mut k)) = self.next(from, 0) else {
+        let Some((mut id, mut k)) = self.next(from, Self::NOWHERE) else {
             return from;
         };
         let steps = &self.steps;

@@ -75,7 +75,10 @@ impl LastPath {
             && best.solution.len() <= SHORT.max(problem.grid().layout().len() / SPARSE)
         {
             self.known = Some(problem.stamp());
-            self.path.clone_from(&best.solution);
+            // A vector that grows by itself takes up to twice as much.
+            self.path.clear();
+            self.path.reserve_exact(best.solution.len());
+            self.path.extend_from_slice(&best.solution);
             (self.at, self.cost, self.is_best) = (0, best.cost, true);
             self.is_plain = problem.grid().is_uniform();
         }

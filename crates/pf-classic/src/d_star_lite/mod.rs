@@ -251,7 +251,9 @@ impl DStarLite {
             Found::Nothing => cx.report(Outcome::Infeasible),
             Found::Cut | Found::TooFar => cx.report(Outcome::Unknown { attempt: None }),
         };
-        self.last_path.remember(problem, &report);
+        if !self.params.eager {
+            self.last_path.remember(problem, &report);
+        }
         report
     }
 }

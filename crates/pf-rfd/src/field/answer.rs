@@ -99,6 +99,10 @@ impl<W: Word> Basin<W> {
         let (found, how) = self.find(problem, held, cx);
         self.debt += cx.stats().expanded - before;
         self.marks.shrink();
+        if found != Found::Path {
+            self.path.clear();
+            self.path.shrink();
+        }
         if found == Found::Nothing {
             self.apart = Some(self.ends);
         }

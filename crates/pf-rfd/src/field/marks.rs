@@ -53,7 +53,7 @@ impl Marks {
         root: u32,
         mut show: impl FnMut(u32),
     ) {
-        let (mut id, mut ahead) = (from, 0);
+        let (mut id, mut ahead) = (from, Downhill::<W>::NOWHERE);
         let is_intact = |id: u32| id == root || self.holds(id);
         while let Some(on) = downhill.next_over(id, ahead, is_intact) {
             (id, ahead) = on;
@@ -75,7 +75,7 @@ impl Marks {
         root: u32,
     ) -> bool {
         self.steps.clear();
-        let (mut id, mut ahead) = (from, 0);
+        let (mut id, mut ahead) = (from, Downhill::<W>::NOWHERE);
         let is_intact = loop {
             let mark = self.cells[id as usize];
             if mark >> 1 == self.round {

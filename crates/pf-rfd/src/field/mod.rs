@@ -42,9 +42,9 @@ params!(RfdFieldParams {
 /// from the end nearer the break goes as far as an old way on is intact. Where cells were freed, the
 /// two fields tell what a way over them would cost at the least: either none beats the old one, or a
 /// search that begins at the freed cells finds the best. The note `replanned` says how the answer
-/// came: `kept` (what is left of the last path, or read off the fields), `patched` (over freed cells), `searched` (by a search that the
-/// fields direct), or `afresh` (as A\*, for the fields say nothing, as when both ends moved and cells
-/// changed).
+/// came: `kept` (what is left of the last path, or read off the fields), `patched` (over freed
+/// cells), `searched` (by a search that the fields direct), or `afresh` (as A\*, for the fields say
+/// nothing, as when both ends moved and cells changed).
 ///
 /// [`settle`](Replanner::settle) makes the fields right again, by repair or sweep. An end that moves
 /// time and again gets no field: it would be wrong before it was of use. Without `settle` the answers
@@ -83,8 +83,8 @@ pub struct RfdField {
     width: Width,
     /// What the changes are known up to.
     known: Option<Stamp>,
-    /// The last answer's path: while nothing but the robot's place and blocked cells change, no field
-    /// is asked.
+    /// The last answer's path: while that holds, and nothing but the robot's place and blocked cells
+    /// change, no field is asked.
     last: LastPath,
 }
 
