@@ -86,7 +86,7 @@ impl Survey {
 /// How many blocked cells touch at most one other along a side.
 fn lone(grid: &Grid) -> u64 {
     let layout = grid.layout();
-    let pitch = layout.offsets()[1].cast_unsigned();
+    let pitch = layout.pitch();
     // Those of the border, blocked as well, touch two.
     let words = (pitch..).step_by(64);
     let words = words.take_while(|&id| (id as usize) < layout.len());

@@ -71,9 +71,7 @@ pub(crate) fn bend(steps: &Steps<'_>, path: &mut [Cell], [first, last]: [usize; 
             let goes = |way: usize, next: [usize; 2]| {
                 next[0] <= of_a
                     && leads[next[0]] >> next[1] & 1 == 1
-                    && steps
-                        .cost(&[here, after(here, ways, [1 - way, way])], |_, _| 0)
-                        .1
+                    && steps.are_legal(&[here, after(here, ways, [1 - way, way])])
             };
             let is_end = a == of_a && b == of_b;
             if is_end || goes(0, [a + 1, b]) || goes(1, [a, b + 1]) {
@@ -90,7 +88,7 @@ pub(crate) fn bend(steps: &Steps<'_>, path: &mut [Cell], [first, last]: [usize; 
         let ahead = after(here, ways, [1, 0]);
         let is_first_kind = done[0] < of_a
             && leads[done[0] + 1] >> done[1] & 1 == 1
-            && steps.cost(&[here, ahead], |_, _| 0).1;
+            && steps.are_legal(&[here, ahead]);
         done[usize::from(!is_first_kind)] += 1;
         *cell = after(from, ways, done);
     }

@@ -343,7 +343,7 @@ impl Grid {
     fn look_around(&mut self) {
         /// Of the 64 cells that a word of bits shows, all but the first and the last have both sides.
         const INNER: u32 = 62;
-        let (width, pitch) = (self.width(), self.layout.offsets()[1].cast_unsigned());
+        let (width, pitch) = (self.width(), self.layout.pitch());
         for y in 0..self.height() {
             for x in (0..width).step_by(INNER as usize) {
                 let id = self.layout.id(Cell { x, y });

@@ -119,11 +119,10 @@ impl LastPath {
         let mut broken: Option<[usize; 2]> = None;
         for chunk in (0..left.len()).step_by(CHUNK) {
             let cells = &left[chunk..left.len().min(chunk + CHUNK + 1)];
-            let is_legal = |cells: &[Cell]| steps.cost(cells, |_, _| 0).1;
-            if blocked.is_some_and(|blocked| blocked.touches(cells)) && !is_legal(cells) {
+            if blocked.is_some_and(|blocked| blocked.touches(cells)) && !steps.are_legal(cells) {
                 for (at, _) in (chunk..)
                     .zip(cells.windows(2))
-                    .filter(|(_, pair)| !is_legal(pair))
+                    .filter(|(_, pair)| !steps.are_legal(pair))
                 {
                     broken = Some([broken.map_or(at, |[first, _]| first), at]);
                 }

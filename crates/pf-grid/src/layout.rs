@@ -42,6 +42,13 @@ impl Layout {
         self.height
     }
 
+    /// What to add to an id to go a row down.
+    #[inline]
+    #[must_use]
+    pub fn pitch(&self) -> u32 {
+        self.pitch
+    }
+
     /// How many ids there are, the border's included: the length of a field over the grid.
     #[must_use]
     #[expect(clippy::len_without_is_empty, reason = "never empty")]

@@ -117,7 +117,7 @@ impl Problem for GridProblem {
         if all_legal {
             return Ok(cost);
         }
-        let is_illegal = |pair: &[Cell]| !steps.cost(pair, |_, _| 0).1;
+        let is_illegal = |pair: &[Cell]| !steps.are_legal(pair);
         let at = path.windows(2).position(is_illegal).unwrap_or_default();
         Err(if self.grid.is_free(path[at + 1]) {
             Violation::IllegalMove { at }
@@ -181,9 +181,15 @@ impl<'g> Steps<'g> {
     pub(crate) fn of(problem: &'g GridProblem) -> Self {
         Self {
             around: problem.grid.around(),
-            pitch: problem.grid.layout().offsets()[1].cast_unsigned(),
+            pitch: problem.grid.layout().pitch(),
             legal: &LEGAL[problem.moves as usize],
         }
+    }
+
+    /// Whether all steps of a path are legal whose first cell is free.
+    #[inline]
+    pub(crate) fn are_legal(&self, path: &[Cell]) -> bool {
+        self.cost(path, |_, _| 0).1
     }
 
     /// What a path costs whose first cell is free, and whether all its steps are legal.

@@ -243,6 +243,25 @@ fn ten_thousand_answers_of_fields_settled_now_and_then_or_never_are_the_best() {
     often(&ways, &[("kept", 500), ("searched", 200), ("afresh", 1000)]);
 }
 
+/// A drawn problem without diagonal steps, and a field that knows it.
+fn settled(drawing: &str, start: Cell, goal: Cell) -> (GridProblem, RfdField) {
+    let problem = GridProblem::new(Grid::parse(drawing).unwrap(), start, goal);
+    let problem = problem.unwrap().with_moves(Moves::Orthogonal);
+    let mut planner = RfdField::default();
+    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    planner.settle(&problem, &mut Context::seeded(0));
+    (problem, planner)
+}
+
+/// Replans after these changes; the answer is proven to take so many steps.
+#[track_caller]
+fn replans(problem: &mut GridProblem, planner: &mut RfdField, changes: &[GridChange], steps: u64) {
+    let revision = problem.revise(changes).unwrap();
+    let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+    let expected = GridCost::of_steps(steps, 0);
+    assert_eq!(proven(problem, &report), Some(expected));
+}
+
 /// A door between two halls as far from the goal helps nobody, until a wall further on has a door, too.
 #[test]
 fn a_useless_door_leads_to_a_useful_one() {
@@ -256,18 +275,12 @@ fn a_useless_door_leads_to_a_useful_one() {
         ...........
     ";
     let (start, goal) = (Cell::new(1, 2), Cell::new(10, 3));
-    let problem = GridProblem::new(Grid::parse(drawing).unwrap(), start, goal);
-    let mut problem = problem.unwrap().with_moves(Moves::Orthogonal);
-    let mut planner = RfdField::default();
-    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    let (mut problem, mut planner) = settled(drawing, start, goal);
     let doors = [Cell::new(2, 3), Cell::new(5, 4)];
     for (freed, steps) in [(&doors[..1], 14), (&doors[1..], 14), (&doors[..], 12)] {
         planner.settle(&problem, &mut Context::seeded(0));
         let changes = [GridChange::Freed(freed.to_vec())];
-        let revision = problem.revise(&changes).unwrap();
-        let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-        let expected = GridCost::of_steps(steps, 0);
-        assert_eq!(proven(&problem, &report), Some(expected));
+        replans(&mut problem, &mut planner, &changes, steps);
         problem
             .apply(&[GridChange::Blocked(freed.to_vec())])
             .unwrap();
@@ -285,19 +298,12 @@ fn a_useless_door_after_a_useful_one() {
         .....@.......
     ";
     let (start, goal) = (Cell::new(2, 0), Cell::new(10, 2));
-    let problem = GridProblem::new(Grid::parse(drawing).unwrap(), start, goal);
-    let mut problem = problem.unwrap().with_moves(Moves::Orthogonal);
-    let mut planner = RfdField::default();
-    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
-    planner.settle(&problem, &mut Context::seeded(0));
+    let (mut problem, mut planner) = settled(drawing, start, goal);
     let changes = [
         GridChange::Blocked(vec![Cell::new(5, 2)]),
         GridChange::Freed(vec![Cell::new(2, 1), Cell::new(5, 3)]),
     ];
-    let revision = problem.revise(&changes).unwrap();
-    let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-    let expected = GridCost::of_steps(12, 0);
-    assert_eq!(proven(&problem, &report), Some(expected));
+    replans(&mut problem, &mut planner, &changes, 12);
 }
 
 /// A way that the fields know was cut when the last path was found. That path still goes, and opening the
@@ -310,21 +316,13 @@ fn a_way_that_opens_again_is_not_news_and_yet_the_best() {
         .....
     ";
     let (start, goal) = (Cell::new(0, 0), Cell::new(4, 0));
-    let problem = GridProblem::new(Grid::parse(drawing).unwrap(), start, goal);
-    let mut problem = problem.unwrap().with_moves(Moves::Orthogonal);
-    let mut planner = RfdField::default();
-    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
-    planner.settle(&problem, &mut Context::seeded(0));
+    let (mut problem, mut planner) = settled(drawing, start, goal);
     let door = vec![Cell::new(2, 0)];
     for (change, steps) in [
         (GridChange::Blocked(door.clone()), 8),
         (GridChange::Freed(door), 4),
     ] {
-        let changes = [change];
-        let revision = problem.revise(&changes).unwrap();
-        let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-        let expected = GridCost::of_steps(steps, 0);
-        assert_eq!(proven(&problem, &report), Some(expected));
+        replans(&mut problem, &mut planner, &[change], steps);
     }
 }
 
