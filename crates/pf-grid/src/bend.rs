@@ -59,38 +59,43 @@ pub(crate) fn bend(steps: &Steps<'_>, path: &mut [Cell], [first, last]: [usize; 
         ways.swap(0, 1);
     }
     let from = path[begin];
-    let of_a = (begin..end).filter(|&at| way(path[at], path[at + 1]) == ways[0]);
-    let of_a = of_a.count();
+    let of_a = path[begin..=end].windows(2);
+    let of_a = of_a.filter(|pair| way(pair[0], pair[1]) == ways[0]).count();
     let of_b = end - begin - of_a;
-    // By steps of the first kind, a bit for each number of steps of the second from where the rest leads to
-    // the end.
-    let mut leads = [0u64; 3 * REACH + 1];
-    for a in (0..=of_a).rev() {
-        for b in (0..=of_b).rev() {
-            let here = after(from, ways, [a, b]);
-            let goes = |way: usize, next: [usize; 2]| {
-                next[0] <= of_a
-                    && leads[next[0]] >> next[1] & 1 == 1
-                    && steps.are_legal(&[here, after(here, ways, [1 - way, way])])
-            };
-            let is_end = a == of_a && b == of_b;
-            if is_end || goes(0, [a + 1, b]) || goes(1, [a, b + 1]) {
-                leads[a] |= 1 << b;
-            }
+    // Depth first, the first kind first. By steps of the first kind, a bit for each number of steps of the
+    // second from where nothing leads to the end.
+    let mut dead = [0u64; 3 * REACH + 1];
+    // The steps taken, a bit each: whether it is of the second kind.
+    let places = ways.map(Steps::place);
+    let (mut done, mut taken) = ([0, 0], 0u64);
+    let mut here = from;
+    while done != [of_a, of_b] {
+        let legal = steps.from(here);
+        let leads = |kind: usize| {
+            let mut next = done;
+            next[kind] += 1;
+            let is_open = next[0] <= of_a && next[1] <= of_b && dead[next[0]] >> next[1] & 1 == 0;
+            is_open && legal >> places[kind] & 1 == 1
+        };
+        if let Some(kind) = [0, 1].into_iter().find(|&kind| leads(kind)) {
+            taken = taken << 1 | kind as u64;
+            done[kind] += 1;
+            here = after(here, ways, [1 - kind, kind]);
+            continue;
         }
+        if done == [0, 0] {
+            return false;
+        }
+        dead[done[0]] |= 1 << done[1];
+        done[(taken & 1) as usize] -= 1;
+        taken >>= 1;
+        here = after(from, ways, done);
     }
-    if leads[0] & 1 == 0 {
-        return false;
-    }
-    let mut done = [0, 0];
-    for cell in &mut path[begin + 1..end] {
-        let here = after(from, ways, done);
-        let ahead = after(here, ways, [1, 0]);
-        let is_first_kind = done[0] < of_a
-            && leads[done[0] + 1] >> done[1] & 1 == 1
-            && steps.are_legal(&[here, ahead]);
-        done[usize::from(!is_first_kind)] += 1;
-        *cell = after(from, ways, done);
+    let mut here = from;
+    for (at, cell) in path[begin + 1..end].iter_mut().enumerate() {
+        let kind = (taken >> (end - begin - 1 - at) & 1) as usize;
+        here = after(here, ways, [1 - kind, kind]);
+        *cell = here;
     }
     true
 }

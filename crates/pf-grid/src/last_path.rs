@@ -1,6 +1,8 @@
 //! The last answer, for as long as nothing that happens can make another one better.
 
-use crate::{Cell, GridChange, GridCost, GridProblem, bend::bend, problem::Steps, window::Window};
+use crate::{
+    Cell, GridChange, GridCost, GridProblem, Tail, Word, bend::bend, problem::Steps, window::Window,
+};
 use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 
 /// The last shortest path, and what is left of it.
@@ -8,7 +10,8 @@ use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 /// Its end is a shortest path, too; and where cells are blocked, whatever else is left is no shorter than
 /// before. It was judged whole once, when it was found. After that the judge looks at the steps near cells
 /// that were blocked, as nothing else can make a step illegal. Where they are, and the map has no terrain,
-/// the path bends if the same steps in another order lead past: that costs what it did.
+/// the path bends if the same steps in another order lead past: that costs what it did. If none do, it is
+/// broken, and a search around the break may end where it joins what is left behind it.
 ///
 /// ```
 /// use pf_core::{Context, Problem, Proof};
@@ -26,7 +29,7 @@ use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 /// assert_eq!(last.left().unwrap().cost, GridCost::of_steps(3, 0));
 ///
 /// let changes = [GridChange::Blocked(vec![Cell::new(3, 1)])];
-/// assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Gone);
+/// assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Broken);
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct LastPath {
@@ -50,6 +53,8 @@ pub enum Hold {
     Best,
     /// What is left of it is a path, and cells were freed, so that there may be a shorter one.
     Legal,
+    /// It is broken, on a map without terrain; its [`tail`](LastPath::tail) is what is left behind the break.
+    Broken,
     /// It is forgotten.
     Gone,
 }
@@ -60,6 +65,16 @@ const SHORT: usize = 1 << 12;
 const SPARSE: usize = 16;
 /// So many steps are looked at together.
 const CHUNK: usize = 32;
+
+/// Whether a path is remembered.
+fn is_short(problem: &GridProblem, path: &[Cell]) -> bool {
+    path.len() <= SHORT.max(problem.grid().layout().len() / SPARSE)
+}
+
+/// The sum of two cells' costs, on a map without terrain.
+fn plainly(_: u32, _: u32) -> u64 {
+    2
+}
 
 impl LastPath {
     /// Bytes held.
@@ -72,7 +87,7 @@ impl LastPath {
     pub fn remember(&mut self, problem: &GridProblem, report: &Report<GridProblem>) {
         self.known = None;
         if let Outcome::Optimal(best) = &report.outcome
-            && best.solution.len() <= SHORT.max(problem.grid().layout().len() / SPARSE)
+            && is_short(problem, &best.solution)
         {
             self.known = Some(problem.stamp());
             // A vector that grows by itself takes up to twice as much.
@@ -87,13 +102,15 @@ impl LastPath {
     /// What has become of it now. If it is not told of a revision, it is gone at the next one.
     pub fn follow(&mut self, revision: &Revision<'_, GridProblem>) -> Hold {
         match self.hold(revision) {
-            Some(()) if self.is_best => Hold::Best,
-            Some(()) => Hold::Legal,
+            Some(true) if self.is_best => Hold::Best,
+            Some(true) => Hold::Legal,
+            Some(false) => Hold::Broken,
             None => Hold::Gone,
         }
     }
 
-    fn hold(&mut self, revision: &Revision<'_, GridProblem>) -> Option<()> {
+    /// Whether it holds, if its tail does.
+    fn hold(&mut self, revision: &Revision<'_, GridProblem>) -> Option<bool> {
         let changes = revision.since(self.known.take())?;
         let problem = revision.problem();
         let grid = problem.grid();
@@ -117,39 +134,97 @@ impl LastPath {
         let (walked, _) = steps.cost(&left[..=gone], |from, to| grid.sum_of_costs(from, to));
         let left = &left[gone..];
         let mut broken: Option<[usize; 2]> = None;
-        for chunk in (0..left.len()).step_by(CHUNK) {
-            let cells = &left[chunk..left.len().min(chunk + CHUNK + 1)];
-            if blocked.is_some_and(|blocked| blocked.touches(cells)) && !steps.are_legal(cells) {
-                for (at, _) in (chunk..)
-                    .zip(cells.windows(2))
-                    .filter(|(_, pair)| !steps.are_legal(pair))
-                {
+        let mut at = 0;
+        while let (Some(blocked), Some(&cell)) = (blocked, left.get(at)) {
+            // A step brings a path no more than a cell nearer.
+            let away = blocked.away(cell);
+            if away > CHUNK {
+                at += away - 1;
+                continue;
+            }
+            let cells = &left[at..left.len().min(at + CHUNK + 1)];
+            if blocked.touches(cells) && !steps.are_legal(cells) {
+                let pairs = (at..).zip(cells.windows(2));
+                for (at, _) in pairs.filter(|(_, pair)| !steps.is_legal(pair[0], pair[1])) {
                     broken = Some([broken.map_or(at, |[first, _]| first), at]);
                 }
             }
+            at += CHUNK;
         }
         if !grid.is_free(problem.start()) || !grid.is_free(problem.goal()) {
             return None;
         }
+        let mut gone = self.at + gone;
+        let mut holds = true;
         if let Some(broken) = broken {
-            let left = &mut self.path[self.at + gone..];
             // What is dear may have been blocked meanwhile, or freed.
-            let is_plain = self.is_plain && grid.is_uniform();
-            if !is_plain || !bend(&steps, left, broken) {
+            if !self.is_plain || !grid.is_uniform() {
                 return None;
             }
+            let left = &mut self.path[gone..];
+            holds = bend(&steps, left, broken);
+            if !holds {
+                // Behind the last step into what is blocked, and out of it.
+                let behind = broken[1] + 1;
+                let behind = behind + usize::from(!grid.is_free(left[behind]));
+                let (lost, _) = steps.cost(&left[..=behind], plainly);
+                self.take_off(lost);
+                gone += behind;
+            }
         }
-        self.at += gone;
+        self.take_off(walked);
+        self.at = gone;
+        self.known = holds.then(|| problem.stamp());
+        Some(holds)
+    }
+
+    fn take_off(&mut self, walked: GridCost) {
         self.cost.straight -= walked.straight;
         self.cost.diagonal -= walked.diagonal;
-        self.known = Some(problem.stamp());
-        Some(())
     }
 
     /// What is left of it costs so much, if it holds.
     #[must_use]
     pub fn cost(&self) -> GridCost {
         self.cost
+    }
+
+    /// What is left behind the break of what was found broken last; `None` beyond [`Word::LIMIT`].
+    #[must_use]
+    pub fn tail<'p, W: Word>(&'p self, problem: &'p GridProblem) -> Option<Tail<'p, W>> {
+        Tail::of(problem, &self.path[self.at..], self.cost)
+    }
+
+    /// Answers with a way to a place of its tail and what is left from there, if that is legal, as what is
+    /// best.
+    pub fn rejoin(
+        &mut self,
+        problem: &GridProblem,
+        way: &[Cell],
+        place: usize,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Option<Report<GridProblem>> {
+        let steps = Steps::of(problem);
+        let behind = self.at + place;
+        let first = *way.first()?;
+        let (more, is_legal) = steps.cost(way, plainly);
+        let leads = first == problem.start() && way.last() == self.path.get(behind);
+        if !is_legal || !leads || !problem.grid().is_free(first) {
+            return None;
+        }
+        self.take_off(steps.cost(&self.path[self.at..=behind], plainly).0);
+        self.cost = self.cost + more;
+        self.path.reserve_exact(way.len());
+        self.path.splice(..=behind, way.iter().copied());
+        (self.at, self.is_best) = (0, true);
+        let best = Solved {
+            solution: self.path.clone(),
+            cost: self.cost,
+        };
+        debug_assert_eq!(problem.judge(&best.solution), Ok(best.cost));
+        self.known = is_short(problem, &self.path).then(|| problem.stamp());
+        cx.improved(|| best.clone());
+        Some(cx.report(Outcome::Optimal(best)))
     }
 
     /// What is left of it, if it holds.

@@ -170,6 +170,7 @@ impl Problem for GridProblem {
 
 /// The judge's view of a map. It looks at a step without a branch, and at a path to its end whatever it
 /// finds, as nearly all paths are good.
+#[derive(Debug)]
 pub(crate) struct Steps<'g> {
     around: &'g [u8],
     pitch: u32,
@@ -184,6 +185,27 @@ impl<'g> Steps<'g> {
             pitch: problem.grid.layout().pitch(),
             legal: &LEGAL[problem.moves as usize],
         }
+    }
+
+    /// The legal steps from a free cell, a bit for the [`place`](Self::place) of each.
+    #[inline]
+    pub(crate) fn from(&self, cell: Cell) -> u16 {
+        let row = cell.y.wrapping_add(1).wrapping_mul(self.pitch);
+        let id = row.wrapping_add(cell.x).wrapping_add(1);
+        let around = self.around.get(id as usize).copied().unwrap_or(0);
+        self.legal[usize::from(around)]
+    }
+
+    /// The place of a step by so many columns and rows.
+    pub(crate) fn place((dx, dy): (u32, u32)) -> u32 {
+        4 * dy.wrapping_add(1) + dx.wrapping_add(1)
+    }
+
+    /// Whether a step from a free cell to one beside it is legal.
+    #[inline]
+    pub(crate) fn is_legal(&self, from: Cell, to: Cell) -> bool {
+        let step = (to.x.wrapping_sub(from.x), to.y.wrapping_sub(from.y));
+        self.from(from) >> Self::place(step) & 1 == 1
     }
 
     /// Whether all steps of a path are legal whose first cell is free.

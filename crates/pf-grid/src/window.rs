@@ -47,6 +47,13 @@ impl Window {
         (y - self.rows[0]) as usize * self.width() + (x - self.columns[0]) as usize
     }
 
+    /// How many steps a cell, counted as the window is, is away from it at the least.
+    pub(crate) fn away(self, cell: Cell) -> usize {
+        let along =
+            |at: u32, [from, to]: [u32; 2]| from.saturating_sub(at).max(at.saturating_sub(to));
+        along(cell.x, self.columns).max(along(cell.y, self.rows)) as usize
+    }
+
     /// Whether any of these cells, counted as the window is, lies in it or beside it.
     pub(crate) fn touches(self, cells: &[Cell]) -> bool {
         let beside =

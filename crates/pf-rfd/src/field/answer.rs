@@ -2,11 +2,11 @@
 
 use super::{
     basin::{Basin, Found, Side},
-    chain::Chain,
+    chain::{Chain, KEPT},
     patch::Sight,
 };
 use pf_core::Context;
-use pf_grid::{Distances, End, GridCost, GridProblem, Weights, Word};
+use pf_grid::{Distances, End, GridProblem, Hold, LastPath, Tail, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +56,9 @@ enum Old<W> {
 /// A change of more cells than this, and than one in so many, is large.
 const FEW: usize = 100;
 const LARGE: usize = 64;
+/// Of so many cells that a search expands one is looked at, whether an old way on holds there. Where it does,
+/// it also does on the way down from there.
+const SELDOM: usize = 4;
 
 impl<W: Word> Basin<W> {
     /// The way by the field of one end, if there is one of use.
@@ -83,11 +86,11 @@ impl<W: Word> Basin<W> {
         })
     }
 
-    /// Answers, and says how. If the last path is `held`, it is legal still, and costs that.
+    /// Answers, and says how. Of the last path so much is left.
     pub(super) fn answer(
         &mut self,
         problem: &GridProblem,
-        held: Option<GridCost>,
+        last: (&LastPath, Hold),
         cx: &mut Context<'_, GridProblem>,
     ) -> (Found, How) {
         if !Distances::<W>::fit(problem) {
@@ -96,9 +99,11 @@ impl<W: Word> Basin<W> {
         self.layout = Some(*problem.grid().layout());
         self.ends = [problem.start(), problem.goal()];
         let before = cx.stats().expanded;
-        let (found, how) = self.find(problem, held, cx);
+        let (found, how) = self.find(problem, last, cx);
         self.debt += cx.stats().expanded - before;
         self.marks.shrink();
+        self.way.shrink_to(KEPT);
+        self.expanded.shrink_to(KEPT);
         if found != Found::Path {
             self.path.clear();
             self.path.shrink();
@@ -112,14 +117,16 @@ impl<W: Word> Basin<W> {
     fn find(
         &mut self,
         problem: &GridProblem,
-        held: Option<GridCost>,
+        last: (&LastPath, Hold),
         cx: &mut Context<'_, GridProblem>,
     ) -> (Found, How) {
         if self.apart == Some([problem.start(), problem.goal()]) {
             return (Found::Nothing, How::Kept);
         }
         let mut ways = [self.way(problem, false), self.way(problem, true)];
-        let held = held.and_then(|cost| Weights::of(problem.grid()).of_cost::<W>(cost));
+        let (last, fate) = last;
+        let weigh = || Weights::of(problem.grid()).of_cost::<W>(last.cost());
+        let held = (fate == Hold::Legal).then(weigh).flatten();
         if let (Some(weight), [Some(to_goal), Some(to_start)]) = (held, ways)
             // Else an old way that was cut when the last path was found may be open again.
             && weight <= to_goal.whole
@@ -148,7 +155,11 @@ impl<W: Word> Basin<W> {
         }
         let nearer = ways.into_iter().flatten().min_by_key(|way| way.holds);
         match intact.or(nearer) {
-            Some(way) => self.look(problem, way, intact.is_some(), cx),
+            Some(way) => {
+                let is_broken = fate == Hold::Broken && !way.is_backward;
+                let tail = is_broken.then(|| last.tail(problem)).flatten();
+                self.look(problem, way, intact.is_some(), tail.as_ref(), cx)
+            }
             None => self.afar(problem, cx),
         }
     }
@@ -275,12 +286,13 @@ impl<W: Word> Basin<W> {
         self.accept(problem, way.is_backward);
     }
 
-    /// Searches from one end to where an old way on holds.
+    /// Searches from one end to where an old way on holds, or the last path's tail is joined.
     fn look(
         &mut self,
         problem: &GridProblem,
         way: Way<W>,
         is_intact: bool,
+        tail: Option<&Tail<'_, W>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> (Found, How) {
         let layout = *problem.grid().layout();
@@ -307,17 +319,35 @@ impl<W: Word> Basin<W> {
             return (Found::Path, How::Kept);
         }
         let downhill = side.field.downhill(problem);
-        let marks = &mut self.marks;
+        let (marks, line) = (&mut self.marks, &mut self.way);
         marks.clear(layout.len());
+        let expanded = &mut self.expanded;
+        expanded.clear();
+        // No field is raised where cells were freed.
+        let most = if side.opened { 0 } else { side.field.room() };
+        let (mut count, mut joined) = (0, None);
         let first = best;
         let arrive = |id: u32, g: W| {
+            if count < most {
+                expanded.push(id);
+            }
+            count += 1;
             let left = side.field.at(id);
-            if left < W::MAX
-                && g + left < best
-                && (side.damage.is_below(left) || marks.is_intact(&downhill, id, way.root))
-            {
-                best = g + left;
-                return Some(left);
+            if left < W::MAX && g + left < best && (count % SELDOM == 0 || id == way.root) {
+                let mut place = None;
+                let mut joins = || {
+                    place = tail.and_then(|tail| tail.join(layout.cell(id), left, line));
+                    place.is_some()
+                };
+                let is_below = side.damage.is_below(left);
+                if is_below {
+                    joins();
+                }
+                if is_below || marks.is_intact(&downhill, id, way.root, joins) {
+                    joined = place;
+                    best = g + left;
+                    return Some(left);
+                }
             }
             // What cannot beat the best need not be expanded.
             heuristic(id).filter(|&least| g + least >= best)
@@ -334,12 +364,35 @@ impl<W: Word> Basin<W> {
                 (Found::Path, How::Searched)
             }
             End::Exhausted => (Found::Nothing, How::Searched),
-            End::Goal(_) => {
+            End::Goal(whole) => {
+                let at = self.search.reached();
                 self.path.begin(way.from);
-                self.go_on(problem, way, self.search.reached(), true);
-                (Found::Path, How::Searched)
+                let found = if let Some(place) = joined {
+                    let back = self.search.back(at).map(|(.., k)| k);
+                    self.path.push_all_back(back);
+                    self.way.splice(..1, self.path.walk(&layout));
+                    Found::Joined(place)
+                } else {
+                    self.go_on(problem, way, at, true);
+                    Found::Path
+                };
+                if count <= most {
+                    self.raise(way, whole);
+                }
+                (found, How::Searched)
             }
         }
+    }
+
+    /// The last search found out that so much is the least there is, so from what it expanded no less is left
+    /// than what the way there leaves of it.
+    fn raise(&mut self, way: Way<W>, whole: W) {
+        let search = &self.search;
+        let left = |id| {
+            let g = search.weight(id).map_or(whole, |g| g.min(whole));
+            whole - g
+        };
+        self.sides[way.side].field.raise(&self.expanded, left);
     }
 
     /// Searches from start to goal where no field is rooted at either. By how much the distances of

@@ -7,7 +7,8 @@ use super::{
 };
 use pf_core::Context;
 use pf_grid::{
-    Cell, Damage, Distances, GridChange, GridProblem, Layout, Search, Sweeper, Swept, Weights, Word,
+    Cell, Damage, Distances, GridChange, GridProblem, Hold, LastPath, Layout, Search, Sweeper,
+    Swept, Weights, Word,
 };
 
 /// What came of a question.
@@ -17,6 +18,8 @@ pub(super) enum Found {
     Path,
     /// The last answer's path is it still.
     Held,
+    /// What [`Basin::way`] leads to is: this place of its tail.
+    Joined(usize),
     /// Proof that there is none.
     Nothing,
     /// The budget ran out.
@@ -52,6 +55,10 @@ pub(super) struct Basin<W: Word> {
     pub(super) log: Vec<u32>,
     /// An answer's path, from the start; scratch.
     pub(super) path: Chain,
+    /// A way from the start to the tail of the last path; scratch.
+    pub(super) way: Vec<Cell>,
+    /// Ids that a search expanded, as far as they may be raised; scratch.
+    pub(super) expanded: Vec<u32>,
     /// Ends with no way between them, while nothing was opened since.
     pub(super) apart: Option<[Cell; 2]>,
     pub(super) patch: Patch<W>,
@@ -73,6 +80,8 @@ impl<W: Word> Default for Basin<W> {
             marks: Marks::default(),
             log: Vec::new(),
             path: Chain::default(),
+            way: Vec::new(),
+            expanded: Vec::new(),
             apart: None,
             patch: Patch::default(),
             ends: [Cell::default(); 2],
@@ -86,7 +95,7 @@ impl<W: Word> Default for Basin<W> {
 /// An end that has moved in so many questions running gets no field.
 const RESTLESS: u32 = 2;
 /// And the other end's is repaired once answers have cost that part of a sweep.
-const DEBT: u64 = 8;
+const DEBT: u64 = 4;
 
 impl<W: Word> Basin<W> {
     /// Bytes held.
@@ -99,6 +108,8 @@ impl<W: Word> Basin<W> {
             + self.marks.bytes()
             + self.patch.bytes()
             + self.path.bytes()
+            + self.way.capacity() * size_of::<Cell>()
+            + self.expanded.capacity() * size_of::<u32>()
             + self.log.capacity() * size_of::<u32>()
     }
 
@@ -152,7 +163,10 @@ impl<W: Word> Basin<W> {
             return Found::TooFar;
         }
         match self.sweep(problem, 0, problem.goal(), cx) {
-            Swept::Whole => self.answer(problem, None, cx).0,
+            Swept::Whole => {
+                let none = LastPath::default();
+                self.answer(problem, (&none, Hold::Gone), cx).0
+            }
             Swept::TooFar => Found::TooFar,
             Swept::Cut | Swept::GaveUp => Found::Cut,
         }
@@ -196,6 +210,9 @@ impl<W: Word> Basin<W> {
                 self.apart = None;
             }
             for side in &mut self.sides {
+                if opens {
+                    side.field.lower();
+                }
                 side.opened |= opens;
                 side.closed |= closes;
             }

@@ -60,18 +60,23 @@ impl Chain {
         if self.is_none() {
             return Vec::new();
         }
-        let mut cell = layout.cell(self.first);
         let mut cells = Vec::with_capacity(self.steps.len() + 1);
-        cells.push(cell);
-        cells.extend(self.steps.iter().map(|&step| {
+        cells.extend(self.walk(layout));
+        cells
+    }
+
+    /// The cells of a path, the first one first.
+    pub(super) fn walk(&self, layout: &Layout) -> impl Iterator<Item = Cell> + '_ {
+        let mut cell = layout.cell(self.first);
+        let on = self.steps.iter().map(move |&step| {
             let (dx, dy) = DIRECTIONS[usize::from(step) & 7];
             cell = Cell {
                 x: cell.x.wrapping_add_signed(dx),
                 y: cell.y.wrapping_add_signed(dy),
             };
             cell
-        }));
-        cells
+        });
+        std::iter::once(layout.cell(self.first)).chain(on)
     }
 
     /// Gives back what is not worth keeping.

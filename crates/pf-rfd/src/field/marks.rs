@@ -6,6 +6,9 @@ use pf_grid::{Downhill, Word};
 /// No more rounds fit a mark.
 const LAST: u8 = u8::MAX / 2;
 
+/// After so many steps on a way down it is worth asking whether there is a shorter proof.
+const FAR: usize = 16;
+
 /// What is known of the ways down from cells. A byte a cell, cleared by rounds.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Marks {
@@ -66,15 +69,18 @@ impl Marks {
         self.cells.get(id as usize) == Some(&(self.round << 1 | 1))
     }
 
-    /// Whether the way down from an id leads to the root.
+    /// Whether the way down from an id leads to the root. Where the first steps do lead on, `is_known` is
+    /// asked once.
     #[expect(clippy::cast_possible_truncation, reason = "directions are below 8")]
     pub(super) fn is_intact<W: Word>(
         &mut self,
         downhill: &Downhill<'_, W>,
         from: u32,
         root: u32,
+        is_known: impl FnOnce() -> bool,
     ) -> bool {
         self.steps.clear();
+        let mut is_known = Some(is_known);
         let (mut id, mut ahead) = (from, Downhill::<W>::NOWHERE);
         let is_intact = loop {
             let mark = self.cells[id as usize];
@@ -89,6 +95,9 @@ impl Marks {
                 None => break false,
             }
             self.steps.push(ahead as u8);
+            if self.steps.len() == FAR && is_known.take().is_some_and(|is_known| is_known()) {
+                return true;
+            }
         };
         let mark = self.round << 1 | u8::from(is_intact);
         self.cells[id as usize] = mark;
@@ -133,7 +142,8 @@ mod tests {
             let downhill = field.downhill(&problem);
             marks.clear(layout.len());
             for (from, holds) in [(far, is_free), (middle, is_free), (root, true)] {
-                let is_intact = marks.is_intact(&downhill, layout.id(from), layout.id(root));
+                let [from_id, root_id] = [from, root].map(|cell| layout.id(cell));
+                let is_intact = marks.is_intact(&downhill, from_id, root_id, || false);
                 assert_eq!(is_intact, holds, "{from:?}");
             }
             (1..LAST).for_each(|_| marks.clear(layout.len()));

@@ -149,17 +149,6 @@ impl RfdField {
         basin!(&self.width, basin => basin.bytes()) + self.last.bytes()
     }
 
-    /// Works in the narrowest width that orders the paths there are exactly.
-    fn in_width(&mut self, mut work: impl FnMut(&mut Width) -> Found) -> Found {
-        loop {
-            let found = work(&mut self.width);
-            if found != Found::TooFar {
-                return found;
-            }
-            self.width.widen();
-        }
-    }
-
     fn report(
         &mut self,
         problem: &GridProblem,
@@ -172,7 +161,7 @@ impl RfdField {
                 cx.answer(problem, path, Proof::Optimal)
             }
             Found::Nothing => cx.report(Outcome::Infeasible),
-            Found::Held | Found::Cut | Found::TooFar => {
+            Found::Held | Found::Joined(_) | Found::Cut | Found::TooFar => {
                 cx.report(Outcome::Unknown { attempt: None })
             }
         };
@@ -188,6 +177,17 @@ impl RfdField {
 }
 
 impl Width {
+    /// Works in the narrowest width that orders the paths there are exactly.
+    fn work(&mut self, mut work: impl FnMut(&mut Self) -> Found) -> Found {
+        loop {
+            let found = work(self);
+            if found != Found::TooFar {
+                return found;
+            }
+            self.widen();
+        }
+    }
+
     fn widen(&mut self) {
         // The old memory goes before the new comes, as that comes with use.
         *self = match self {
@@ -230,7 +230,9 @@ impl Planner<GridProblem> for RfdField {
             basin!(&mut self.width, basin => basin.begin(problem));
             return Ok(cx.report(Outcome::Infeasible));
         }
-        let found = self.in_width(|width| basin!(width, basin => basin.plan(problem, cx)));
+        let found = self
+            .width
+            .work(|width| basin!(width, basin => basin.plan(problem, cx)));
         self.show(cx);
         Ok(self.report(problem, found, cx))
     }
@@ -260,9 +262,9 @@ impl Replanner<GridProblem> for RfdField {
         let found = if last == Hold::Best {
             Found::Held
         } else {
-            let held = (last == Hold::Legal).then(|| self.last.cost());
-            self.in_width(|width| {
-                let (found, way) = basin!(width, basin => basin.answer(problem, held, cx));
+            let last = (&self.last, last);
+            self.width.work(|width| {
+                let (found, way) = basin!(width, basin => basin.answer(problem, last, cx));
                 how = way.name();
                 found
             })
@@ -273,6 +275,12 @@ impl Replanner<GridProblem> for RfdField {
             return Ok(report);
         }
         cx.note("replanned", how);
+        if let Found::Joined(place) = found
+            && let way = basin!(&self.width, basin => &basin.way)
+            && let Some(report) = self.last.rejoin(problem, way, place, cx)
+        {
+            return Ok(report);
+        }
         Ok(self.report(problem, found, cx))
     }
 
@@ -282,7 +290,8 @@ impl Replanner<GridProblem> for RfdField {
             return;
         }
         let patience = self.params.patience;
-        self.in_width(|width| basin!(width, basin => basin.settle(problem, patience, cx)));
+        self.width
+            .work(|width| basin!(width, basin => basin.settle(problem, patience, cx)));
         self.show(cx);
     }
 }

@@ -263,7 +263,7 @@ impl<W: Word> Patch<W> {
             let left = goals.field.at(id);
             if left < W::MAX
                 && g + left < best
-                && (!goals.closed || marks.is_intact(&downhill, id, sight.ends[1]))
+                && (!goals.closed || marks.is_intact(&downhill, id, sight.ends[1], || false))
             {
                 best = g + left;
                 return Some(left);
