@@ -15,18 +15,11 @@ fn way(from: Cell, to: Cell) -> Way {
     (to.x.wrapping_sub(from.x), to.y.wrapping_sub(from.y))
 }
 
-/// The cell so many steps of two kinds from another. It may be none.
-fn after(from: Cell, [a, b]: [Way; 2], [of_a, of_b]: [usize; 2]) -> Cell {
-    #[expect(clippy::cast_possible_truncation, reason = "a few steps")]
-    let along = |from: u32, a: u32, b: u32| {
-        let on = a
-            .wrapping_mul(of_a as u32)
-            .wrapping_add(b.wrapping_mul(of_b as u32));
-        from.wrapping_add(on)
-    };
+/// The cell a step on. It may be none.
+fn after(from: Cell, step: Way) -> Cell {
     Cell {
-        x: along(from.x, a.0, b.0),
-        y: along(from.y, a.1, b.1),
+        x: from.x.wrapping_add(step.0),
+        y: from.y.wrapping_add(step.1),
     }
 }
 
@@ -65,36 +58,31 @@ pub(crate) fn bend(steps: &Steps<'_>, path: &mut [Cell], [first, last]: [usize; 
     // Depth first, the first kind first. By steps of the first kind, a bit for each number of steps of the
     // second from where nothing leads to the end.
     let mut dead = [0u64; 3 * REACH + 1];
-    // The steps taken, a bit each: whether it is of the second kind.
     let places = ways.map(Steps::place);
-    let (mut done, mut taken) = ([0, 0], 0u64);
-    let mut here = from;
-    while done != [of_a, of_b] {
+    // The steps taken, a bit each: whether it is of the second kind.
+    let (mut here, mut of, mut taken) = (from, [0, 0], 0u64);
+    while of != [of_a, of_b] {
         let legal = steps.from(here);
-        let leads = |kind: usize| {
-            let mut next = done;
-            next[kind] += 1;
-            let is_open = next[0] <= of_a && next[1] <= of_b && dead[next[0]] >> next[1] & 1 == 0;
-            is_open && legal >> places[kind] & 1 == 1
-        };
-        if let Some(kind) = [0, 1].into_iter().find(|&kind| leads(kind)) {
-            taken = taken << 1 | kind as u64;
-            done[kind] += 1;
-            here = after(here, ways, [1 - kind, kind]);
-            continue;
-        }
-        if done == [0, 0] {
+        let is_open = |a: usize, b: usize| dead[a] >> b & 1 == 0;
+        if of[0] < of_a && legal >> places[0] & 1 == 1 && is_open(of[0] + 1, of[1]) {
+            (of[0], taken) = (of[0] + 1, taken << 1);
+            here = after(here, ways[0]);
+        } else if of[1] < of_b && legal >> places[1] & 1 == 1 && is_open(of[0], of[1] + 1) {
+            (of[1], taken) = (of[1] + 1, taken << 1 | 1);
+            here = after(here, ways[1]);
+        } else if of == [0, 0] {
             return false;
+        } else {
+            dead[of[0]] |= 1 << of[1];
+            let kind = (taken & 1) as usize;
+            (of[kind], taken) = (of[kind] - 1, taken >> 1);
+            let (dx, dy) = ways[kind];
+            here = after(here, (dx.wrapping_neg(), dy.wrapping_neg()));
         }
-        dead[done[0]] |= 1 << done[1];
-        done[(taken & 1) as usize] -= 1;
-        taken >>= 1;
-        here = after(from, ways, done);
     }
     let mut here = from;
-    for (at, cell) in path[begin + 1..end].iter_mut().enumerate() {
-        let kind = (taken >> (end - begin - 1 - at) & 1) as usize;
-        here = after(here, ways, [1 - kind, kind]);
+    for (at, cell) in (begin + 1..end).zip(&mut path[begin + 1..end]) {
+        here = after(here, ways[(taken >> (end - at) & 1) as usize]);
         *cell = here;
     }
     true

@@ -143,10 +143,11 @@ impl LastPath {
                 continue;
             }
             let cells = &left[at..left.len().min(at + CHUNK + 1)];
-            if blocked.touches(cells) && !steps.are_legal(cells) {
-                let pairs = (at..).zip(cells.windows(2));
-                for (at, _) in pairs.filter(|(_, pair)| !steps.is_legal(pair[0], pair[1])) {
-                    broken = Some([broken.map_or(at, |[first, _]| first), at]);
+            if blocked.touches(cells) {
+                for (at, pair) in (at..).zip(cells.windows(2)) {
+                    if !steps.is_legal(pair[0], pair[1]) {
+                        broken = Some([broken.map_or(at, |[first, _]| first), at]);
+                    }
                 }
             }
             at += CHUNK;
