@@ -1,7 +1,8 @@
 //! The last answer, for as long as nothing that happens can make another one better.
 
 use crate::{
-    Cell, GridChange, GridCost, GridProblem, Tail, Word, bend::bend, problem::Steps, window::Window,
+    Cell, GridChange, GridCost, GridProblem, Remnant, Word, bend::bend, problem::Steps,
+    window::Window,
 };
 use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 
@@ -11,7 +12,7 @@ use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 /// before. It was judged whole once, when it was found. After that the judge looks at the steps near cells
 /// that were blocked, as nothing else can make a step illegal. Where they are, and the map has no terrain,
 /// the path bends if the same steps in another order lead past: that costs what it did. If none do, it is
-/// broken, and a search around the break may end where it joins what is left behind it.
+/// broken, and a search around the break may end where it joins one of its remnants.
 ///
 /// ```
 /// use pf_core::{Context, Problem, Proof};
@@ -40,6 +41,8 @@ pub struct LastPath {
     at: usize,
     /// Of what is left.
     cost: GridCost,
+    /// If it is broken: where in it what is left at the start ends, and what is left at the goal begins.
+    ends: [Option<usize>; 2],
     /// Nothing was freed since.
     is_best: bool,
     /// The map had no terrain then: every step of the path costs its length.
@@ -53,7 +56,7 @@ pub enum Hold {
     Best,
     /// What is left of it is a path, and cells were freed, so that there may be a shorter one.
     Legal,
-    /// It is broken, on a map without terrain; its [`tail`](LastPath::tail) is what is left behind the break.
+    /// It is broken, or an end moved off it, on a map without terrain: there are [remnants](LastPath::remnant).
     Broken,
     /// It is forgotten.
     Gone,
@@ -69,6 +72,30 @@ const CHUNK: usize = 32;
 /// Whether a path is remembered.
 fn is_short(problem: &GridProblem, path: &[Cell]) -> bool {
     path.len() <= SHORT.max(problem.grid().layout().len() / SPARSE)
+}
+
+/// The first and the last illegal step of a path, if cells were blocked in a window and nowhere else.
+fn breaks(steps: &Steps<'_>, path: &[Cell], blocked: Window) -> Option<[usize; 2]> {
+    let mut broken: Option<[usize; 2]> = None;
+    let mut at = 0;
+    while let Some(&cell) = path.get(at) {
+        // A step brings a path no more than a cell nearer.
+        let away = blocked.away(cell);
+        if away > CHUNK {
+            at += away - 1;
+            continue;
+        }
+        let cells = &path[at..path.len().min(at + CHUNK + 1)];
+        if blocked.touches(cells) {
+            for (at, pair) in (at..).zip(cells.windows(2)) {
+                if !steps.is_legal(pair[0], pair[1]) {
+                    broken = Some([broken.map_or(at, |[first, _]| first), at]);
+                }
+            }
+        }
+        at += CHUNK;
+    }
+    broken
 }
 
 /// The sum of two cells' costs, on a map without terrain.
@@ -101,82 +128,71 @@ impl LastPath {
 
     /// What has become of it now. If it is not told of a revision, it is gone at the next one.
     pub fn follow(&mut self, revision: &Revision<'_, GridProblem>) -> Hold {
-        match self.hold(revision) {
-            Some(true) if self.is_best => Hold::Best,
-            Some(true) => Hold::Legal,
-            Some(false) => Hold::Broken,
-            None => Hold::Gone,
-        }
+        self.hold(revision).unwrap_or(Hold::Gone)
     }
 
-    /// Whether it holds, if its tail does.
-    fn hold(&mut self, revision: &Revision<'_, GridProblem>) -> Option<bool> {
+    fn hold(&mut self, revision: &Revision<'_, GridProblem>) -> Option<Hold> {
         let changes = revision.since(self.known.take())?;
         let problem = revision.problem();
         let grid = problem.grid();
         let mut blocked: Option<Window> = None;
         for change in changes {
             match change {
-                GridChange::StartMoved(_) => {}
-                GridChange::GoalMoved(goal) if Some(goal) == self.path.last() => {}
+                GridChange::StartMoved(_) | GridChange::GoalMoved(_) => {}
                 GridChange::Blocked(cells) => {
                     for cell in cells {
                         Window::hold(&mut blocked, (cell.x, cell.y));
                     }
                 }
                 GridChange::Freed(_) => self.is_best = false,
-                GridChange::GoalMoved(_) | GridChange::CostChanged(..) => return None,
+                GridChange::CostChanged(..) => return None,
             }
-        }
-        let left = &self.path[self.at..];
-        let gone = left.iter().position(|&cell| cell == problem.start())?;
-        let steps = Steps::of(problem);
-        let (walked, _) = steps.cost(&left[..=gone], |from, to| grid.sum_of_costs(from, to));
-        let left = &left[gone..];
-        let mut broken: Option<[usize; 2]> = None;
-        let mut at = 0;
-        while let (Some(blocked), Some(&cell)) = (blocked, left.get(at)) {
-            // A step brings a path no more than a cell nearer.
-            let away = blocked.away(cell);
-            if away > CHUNK {
-                at += away - 1;
-                continue;
-            }
-            let cells = &left[at..left.len().min(at + CHUNK + 1)];
-            if blocked.touches(cells) {
-                for (at, pair) in (at..).zip(cells.windows(2)) {
-                    if !steps.is_legal(pair[0], pair[1]) {
-                        broken = Some([broken.map_or(at, |[first, _]| first), at]);
-                    }
-                }
-            }
-            at += CHUNK;
         }
         if !grid.is_free(problem.start()) || !grid.is_free(problem.goal()) {
             return None;
         }
-        let mut gone = self.at + gone;
-        let mut holds = true;
+        // What is dear may have been blocked meanwhile, or freed.
+        let is_plain = self.is_plain && grid.is_uniform();
+        let steps = Steps::of(problem);
+        let left = &self.path[self.at..];
+        let leads = left.last() == Some(&problem.goal());
+        let begin = left.iter().position(|&cell| cell == problem.start());
+        if !(is_plain || leads && begin.is_some()) {
+            return None;
+        }
+        if let Some(begin) = begin {
+            let sum = |from, to| grid.sum_of_costs(from, to);
+            let (walked, _) = steps.cost(&left[..=begin], sum);
+            self.take_off(walked);
+            self.at += begin;
+        }
+        let left = &mut self.path[self.at..];
+        let broken = blocked.and_then(|blocked| breaks(&steps, left, blocked));
+        let mut holds = broken.is_none();
         if let Some(broken) = broken {
-            // What is dear may have been blocked meanwhile, or freed.
-            if !self.is_plain || !grid.is_uniform() {
+            if !is_plain {
                 return None;
             }
-            let left = &mut self.path[gone..];
-            holds = bend(&steps, left, broken);
-            if !holds {
-                // Behind the last step into what is blocked, and out of it.
-                let behind = broken[1] + 1;
-                let behind = behind + usize::from(!grid.is_free(left[behind]));
-                let (lost, _) = steps.cost(&left[..=behind], plainly);
-                self.take_off(lost);
-                gone += behind;
-            }
+            holds = leads && begin.is_some() && bend(&steps, left, broken);
         }
-        self.take_off(walked);
-        self.at = gone;
-        self.known = holds.then(|| problem.stamp());
-        Some(holds)
+        if holds && leads && begin.is_some() {
+            self.known = Some(problem.stamp());
+            let is_best = self.is_best;
+            return Some(if is_best { Hold::Best } else { Hold::Legal });
+        }
+        let [first, last] = match broken.filter(|_| !holds) {
+            None => [left.len() - 1, 0],
+            // Behind the last step into what is blocked, and out of it.
+            Some([first, last]) => {
+                let behind = last + 1;
+                [first, behind + usize::from(!grid.is_free(left[behind]))]
+            }
+        };
+        self.ends = [
+            begin.map(|_| self.at + first),
+            leads.then_some(self.at + last),
+        ];
+        Some(Hold::Broken)
     }
 
     fn take_off(&mut self, walked: GridCost) {
@@ -190,51 +206,93 @@ impl LastPath {
         self.cost
     }
 
-    /// What is left behind the break of what was found broken last; `None` beyond [`Word::LIMIT`].
+    /// What is left at the goal of what was found broken last, or at the start if it `is_backward`; `None`
+    /// beyond [`Word::LIMIT`].
     #[must_use]
-    pub fn tail<'p, W: Word>(&'p self, problem: &'p GridProblem) -> Option<Tail<'p, W>> {
-        Tail::of(problem, &self.path[self.at..], self.cost)
+    pub fn remnant<'p, W: Word>(
+        &self,
+        problem: &'p GridProblem,
+        is_backward: bool,
+    ) -> Option<Remnant<'p, W>> {
+        let steps = Steps::of(problem);
+        let [last, first] = self.ends;
+        let mut rest = self.cost;
+        let mut without = |lost: &[Cell]| {
+            let (lost, _) = steps.cost(lost, plainly);
+            rest.straight -= lost.straight;
+            rest.diagonal -= lost.diagonal;
+        };
+        if is_backward {
+            let last = last?;
+            without(&self.path[last..]);
+            let cells = self.path[self.at..=last].iter().rev();
+            return Remnant::of(problem, cells.copied(), rest);
+        }
+        let first = first?;
+        without(&self.path[self.at..=first]);
+        Remnant::of(problem, self.path[first..].iter().copied(), rest)
     }
 
-    /// Answers with a way to a place of its tail and what is left from there, if that is legal, as what is
-    /// best.
+    /// Answers with a way that joins the remnant at the goal so far along, and what is left from there; or what
+    /// leads so far along the remnant at the start, and a way on from there. As what is best, if it is legal.
     pub fn rejoin(
         &mut self,
         problem: &GridProblem,
+        (is_backward, along): (bool, usize),
         way: &[Cell],
-        place: usize,
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Report<GridProblem>> {
         let steps = Steps::of(problem);
-        let behind = self.at + place;
-        let first = *way.first()?;
+        let (&first, &last) = (way.first()?, way.last()?);
         let (more, is_legal) = steps.cost(way, plainly);
-        let leads = first == problem.start() && way.last() == self.path.get(behind);
+        let place = if is_backward {
+            self.ends[0]?.checked_sub(along)?
+        } else {
+            self.ends[1]? + along
+        };
+        let joined = *self.path.get(place)?;
+        let leads = if is_backward {
+            [first, last] == [joined, problem.goal()]
+        } else {
+            [first, last] == [problem.start(), joined]
+        };
         if !is_legal || !leads || !problem.grid().is_free(first) {
             return None;
         }
-        self.take_off(steps.cost(&self.path[self.at..=behind], plainly).0);
+        let lost = if is_backward {
+            &self.path[place..]
+        } else {
+            &self.path[self.at..=place]
+        };
+        self.take_off(steps.cost(lost, plainly).0);
         self.cost = self.cost + more;
         self.path.reserve_exact(way.len());
-        self.path.splice(..=behind, way.iter().copied());
-        (self.at, self.is_best) = (0, true);
-        let best = Solved {
-            solution: self.path.clone(),
-            cost: self.cost,
-        };
+        if is_backward {
+            self.path.truncate(place);
+            self.path.extend_from_slice(way);
+        } else {
+            self.path.splice(..=place, way.iter().copied());
+            self.at = 0;
+        }
+        self.is_best = true;
+        let best = self.whole();
         debug_assert_eq!(problem.judge(&best.solution), Ok(best.cost));
         self.known = is_short(problem, &self.path).then(|| problem.stamp());
         cx.improved(|| best.clone());
         Some(cx.report(Outcome::Optimal(best)))
     }
 
+    fn whole(&self) -> Solved<GridProblem> {
+        Solved {
+            solution: self.path[self.at..].to_vec(),
+            cost: self.cost,
+        }
+    }
+
     /// What is left of it, if it holds.
     #[must_use]
     pub fn left(&self) -> Option<Solved<GridProblem>> {
-        self.known.map(|_| Solved {
-            solution: self.path[self.at..].to_vec(),
-            cost: self.cost,
-        })
+        self.known.map(|_| self.whole())
     }
 
     /// Answers with what is left of it, if it holds, as what is best. The note `replanned` says `kept`.

@@ -6,7 +6,7 @@ use super::{
     patch::Sight,
 };
 use pf_core::Context;
-use pf_grid::{Distances, End, GridProblem, Hold, LastPath, Tail, Weights, Word};
+use pf_grid::{Distances, End, GridProblem, Hold, LastPath, Remnant, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -139,7 +139,8 @@ impl<W: Word> Basin<W> {
         }
         // Exact fields first.
         ways.sort_by_key(|way| way.is_none_or(|way| self.sides[way.side].since < self.log.len()));
-        let (found, intact) = self.read_off(problem, &mut ways);
+        let last = (fate == Hold::Broken).then_some(last);
+        let (found, intact) = self.read_off(problem, &mut ways, last);
         if let Some(found) = found {
             return (found, How::Kept);
         }
@@ -156,9 +157,8 @@ impl<W: Word> Basin<W> {
         let nearer = ways.into_iter().flatten().min_by_key(|way| way.holds);
         match intact.or(nearer) {
             Some(way) => {
-                let is_broken = fate == Hold::Broken && !way.is_backward;
-                let tail = is_broken.then(|| last.tail(problem)).flatten();
-                self.look(problem, way, intact.is_some(), tail.as_ref(), cx)
+                let remnant = last.and_then(|last| last.remnant(problem, way.is_backward));
+                self.look(problem, way, intact.is_some(), remnant.as_ref(), cx)
             }
             None => self.afar(problem, cx),
         }
@@ -179,7 +179,9 @@ impl<W: Word> Basin<W> {
         &mut self,
         problem: &GridProblem,
         ways: &mut [Option<Way<W>>; 2],
+        last: Option<&LastPath>,
     ) -> (Option<Found>, Option<Way<W>>) {
+        let layout = problem.grid().layout();
         for way in ways.iter_mut().flatten() {
             let side = &self.sides[way.side];
             let is_proof = side.since == self.log.len() || !side.opened;
@@ -188,6 +190,12 @@ impl<W: Word> Basin<W> {
                     return (Some(Found::Nothing), None);
                 }
                 continue;
+            }
+            if is_proof
+                && let Some(remnant) = last.and_then(|last| last.remnant(problem, way.is_backward))
+                && let Some(along) = remnant.join(layout.cell(way.from), way.whole, &mut self.way)
+            {
+                return (Some(self.joined(way.is_backward, along)), None);
             }
             let path = &mut self.path;
             path.begin(way.from);
@@ -203,6 +211,14 @@ impl<W: Word> Basin<W> {
             }
         }
         (None, None)
+    }
+
+    /// The way in `way` becomes a part of the answer.
+    fn joined(&mut self, is_backward: bool, along: usize) -> Found {
+        if is_backward {
+            self.way.reverse();
+        }
+        Found::Joined { is_backward, along }
     }
 
     /// The way in `path` becomes the answer.
@@ -286,13 +302,13 @@ impl<W: Word> Basin<W> {
         self.accept(problem, way.is_backward);
     }
 
-    /// Searches from one end to where an old way on holds, or the last path's tail is joined.
+    /// Searches from one end to where an old way on holds, or a remnant of the last path is joined.
     fn look(
         &mut self,
         problem: &GridProblem,
         way: Way<W>,
         is_intact: bool,
-        tail: Option<&Tail<'_, W>>,
+        remnant: Option<&Remnant<'_, W>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> (Found, How) {
         let layout = *problem.grid().layout();
@@ -336,7 +352,7 @@ impl<W: Word> Basin<W> {
             if left < W::MAX && g + left < best && (count % SELDOM == 0 || id == way.root) {
                 let mut place = None;
                 let mut joins = || {
-                    place = tail.and_then(|tail| tail.join(layout.cell(id), left, line));
+                    place = remnant.and_then(|it| it.join(layout.cell(id), left, line));
                     place.is_some()
                 };
                 let is_below = side.damage.is_below(left);
@@ -367,11 +383,11 @@ impl<W: Word> Basin<W> {
             End::Goal(whole) => {
                 let at = self.search.reached();
                 self.path.begin(way.from);
-                let found = if let Some(place) = joined {
+                let found = if let Some(along) = joined {
                     let back = self.search.back(at).map(|(.., k)| k);
                     self.path.push_all_back(back);
                     self.way.splice(..1, self.path.walk(&layout));
-                    Found::Joined(place)
+                    self.joined(way.is_backward, along)
                 } else {
                     self.go_on(problem, way, at, true);
                     Found::Path

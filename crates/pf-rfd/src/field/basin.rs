@@ -18,8 +18,9 @@ pub(super) enum Found {
     Path,
     /// The last answer's path is it still.
     Held,
-    /// What [`Basin::way`] leads to is: this place of its tail.
-    Joined(usize),
+    /// [`Basin::way`] and the remnant of the last path at the goal, so far along; or at the start, if it is
+    /// backward.
+    Joined { is_backward: bool, along: usize },
     /// Proof that there is none.
     Nothing,
     /// The budget ran out.
@@ -55,7 +56,7 @@ pub(super) struct Basin<W: Word> {
     pub(super) log: Vec<u32>,
     /// An answer's path, from the start; scratch.
     pub(super) path: Chain,
-    /// A way from the start to the tail of the last path; scratch.
+    /// A way that joins a remnant of the last path; scratch.
     pub(super) way: Vec<Cell>,
     /// Ids that a search expanded, as far as they may be raised; scratch.
     pub(super) expanded: Vec<u32>,

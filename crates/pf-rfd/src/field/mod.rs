@@ -161,7 +161,7 @@ impl RfdField {
                 cx.answer(problem, path, Proof::Optimal)
             }
             Found::Nothing => cx.report(Outcome::Infeasible),
-            Found::Held | Found::Joined(_) | Found::Cut | Found::TooFar => {
+            Found::Held | Found::Joined { .. } | Found::Cut | Found::TooFar => {
                 cx.report(Outcome::Unknown { attempt: None })
             }
         };
@@ -275,9 +275,9 @@ impl Replanner<GridProblem> for RfdField {
             return Ok(report);
         }
         cx.note("replanned", how);
-        if let Found::Joined(place) = found
+        if let Found::Joined { is_backward, along } = found
             && let way = basin!(&self.width, basin => &basin.way)
-            && let Some(report) = self.last.rejoin(problem, way, place, cx)
+            && let Some(report) = self.last.rejoin(problem, (is_backward, along), way, cx)
         {
             return Ok(report);
         }

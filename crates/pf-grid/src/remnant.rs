@@ -1,0 +1,137 @@
+//! What is left of a path at one end, and how to join it.
+
+use crate::{Apart, Cell, DIRECTIONS, GridCost, GridProblem, Moves, Weights, Word};
+
+/// So many places of it can be joined at the most,
+const PLACES: usize = 6;
+/// and none further along than this.
+const FAR: usize = 128;
+
+/// What is left of a shortest path at one of its ends, on a map without terrain: see
+/// [`LastPath::remnant`](crate::LastPath::remnant).
+///
+/// A search towards that end need not go on to it, nor the way it finds be followed to there: it ends where a
+/// way of two straight pieces leads to a place where the remnant turns, if that is no longer in all than any
+/// way there could be.
+#[derive(Debug)]
+pub struct Remnant<'p, W> {
+    problem: &'p GridProblem,
+    apart: Apart<W>,
+    /// Where it can be joined, the place that is furthest from the end first: how far along, the cell, and
+    /// what is left from there.
+    places: [(usize, Cell, W); PLACES],
+    count: usize,
+}
+
+/// A piece of a way: its direction and how many steps it has.
+type Piece = (u32, u32);
+
+impl<'p, W: Word> Remnant<'p, W> {
+    /// Of cells that cost so much from the first to the end. `None` beyond [`Word::LIMIT`].
+    pub(crate) fn of(
+        problem: &'p GridProblem,
+        mut cells: impl Iterator<Item = Cell>,
+        cost: GridCost,
+    ) -> Option<Self> {
+        let weights = Weights::of(problem.grid());
+        let mut left = weights.of_cost(cost)?;
+        let mut cell = cells.next()?;
+        let mut remnant = Self {
+            problem,
+            apart: weights.apart(problem.moves()),
+            places: [(0, cell, left); PLACES],
+            count: 1,
+        };
+        let mut before = None;
+        for (at, next) in (0..FAR).zip(cells) {
+            let step = [next.x.wrapping_sub(cell.x), next.y.wrapping_sub(cell.y)];
+            if before.is_some_and(|before| before != step) {
+                remnant.add(at, cell, left);
+                if remnant.count == PLACES {
+                    return Some(remnant);
+                }
+            }
+            before = Some(step);
+            left = left
+                - if step.contains(&0) {
+                    W::STRAIGHT
+                } else {
+                    W::DIAGONAL
+                };
+            cell = next;
+            remnant.places[remnant.count] = (at + 1, cell, left);
+        }
+        remnant.count += usize::from(before.is_some());
+        Some(remnant)
+    }
+
+    fn add(&mut self, at: usize, cell: Cell, left: W) {
+        self.places[self.count] = (at, cell, left);
+        self.count += 1;
+    }
+
+    /// How far along a way from a cell joins it that costs, with what is left there, no more than what is
+    /// `left` from the cell at the least. `way` is then that way, both ends included.
+    pub fn join(&self, from: Cell, left: W, way: &mut Vec<Cell>) -> Option<usize> {
+        self.places[..self.count]
+            .iter()
+            .find_map(|&(at, to, rest)| {
+                let apart = self.apart.by(from.x.abs_diff(to.x), from.y.abs_diff(to.y));
+                let pieces = (apart + rest == left).then(|| self.pieces(from, to))??;
+                way.clear();
+                way.push(from);
+                let mut cell = from;
+                for (k, count) in pieces {
+                    let (dx, dy) = DIRECTIONS[k as usize];
+                    way.extend((0..count).map(|_| {
+                        cell.x = cell.x.wrapping_add_signed(dx);
+                        cell.y = cell.y.wrapping_add_signed(dy);
+                        cell
+                    }));
+                }
+                Some(at)
+            })
+    }
+
+    /// The pieces of a way from one cell to another, if one of the two that there are is legal.
+    fn pieces(&self, from: Cell, to: Cell) -> Option<[Piece; 2]> {
+        let (dx, dy) = (from.x.abs_diff(to.x), from.y.abs_diff(to.y));
+        let row = (if to.x > from.x { 0 } else { 2 }, dx);
+        let column = (if to.y > from.y { 1 } else { 3 }, dy);
+        let pieces = if self.problem.moves() == Moves::Orthogonal {
+            [row, column]
+        } else {
+            let (longer, shorter) = if dx > dy {
+                (row, column)
+            } else {
+                (column, row)
+            };
+            // Direction `4 + i` lies between `i` and the next one.
+            let between = if (row.0 + 1) % 4 == column.0 {
+                row.0
+            } else {
+                column.0
+            };
+            [(4 + between, shorter.1), (longer.0, longer.1 - shorter.1)]
+        };
+        let [first, second] = pieces;
+        let orders = [pieces, [second, first]];
+        orders
+            .into_iter()
+            .find(|pieces| self.are_legal(from, pieces))
+    }
+
+    fn are_legal(&self, from: Cell, pieces: &[Piece; 2]) -> bool {
+        let (grid, moves) = (self.problem.grid(), self.problem.moves());
+        let layout = grid.layout();
+        let offsets = layout.offsets();
+        let mut id = layout.id(from);
+        pieces.iter().all(|&(k, count)| {
+            (0..count).all(|_| {
+                let legal = moves.legal(grid.around_id(id));
+                id = id.wrapping_add_signed(offsets[k as usize]);
+                legal >> k & 1 == 1
+            })
+        })
+    }
+}
