@@ -67,6 +67,7 @@ fn join(
                 assert!(last.rejoin(problem, place, part, cx).is_none());
             }
             let report = last.rejoin(problem, place, &way, cx)?;
+            assert!(last.remnant::<u64>(problem, is_backward).is_none());
             return report.outcome.solved().cloned();
         }
         let ids = [cell, *path.get(at + 1)?].map(|cell| grid.layout().id(cell));

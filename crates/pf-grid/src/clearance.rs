@@ -154,7 +154,7 @@ impl Grid {
         let mut inflated = self.clone();
         for cell in self.layout().cells() {
             if clearance.is_below(cell, radius) {
-                inflated.set_free(cell, false);
+                inflated.set_free(&[cell], false);
             }
         }
         inflated

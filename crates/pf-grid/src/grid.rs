@@ -294,26 +294,33 @@ impl Grid {
         }
     }
 
-    /// Blocks or frees a cell; says whether that changed anything.
-    pub(crate) fn set_free(&mut self, cell: Cell, free: bool) -> bool {
-        let id = self.layout.id(cell);
-        if self.is_free_id(id) == free {
-            return false;
+    /// Blocks or frees cells; says whether that changed anything.
+    pub(crate) fn set_free(&mut self, cells: &[Cell], free: bool) -> bool {
+        let offsets = self.layout.offsets();
+        let mut anything = false;
+        for &cell in cells {
+            let id = self.layout.id(cell);
+            if self.is_free_id(id) == free {
+                continue;
+            }
+            anything = true;
+            let cost = usize::from(self.cost_id(id));
+            self.free[id as usize / 64] ^= 1 << (id % 64);
+            self.census[cost] = if free {
+                self.census[cost] + 1
+            } else {
+                self.census[cost] - 1
+            };
+            for (k, offset) in offsets.into_iter().enumerate() {
+                // Seen from the neighbour, this cell lies in the opposite direction.
+                let neighbour = id.wrapping_add_signed(offset) as usize;
+                self.around[neighbour] ^= 1 << (k & 4 | (k + 2) & 3);
+            }
         }
-        let cost = usize::from(self.cost_id(id));
-        self.free[id as usize / 64] ^= 1 << (id % 64);
-        self.census[cost] = if free {
-            self.census[cost] + 1
-        } else {
-            self.census[cost] - 1
-        };
-        for (k, offset) in self.layout.offsets().into_iter().enumerate() {
-            // Seen from the neighbour, this cell lies in the opposite direction.
-            let neighbour = id.wrapping_add_signed(offset) as usize;
-            self.around[neighbour] ^= 1 << (k & 4 | (k + 2) & 3);
+        if anything {
+            self.stamp = Stamp::fresh();
         }
-        self.stamp = Stamp::fresh();
-        true
+        anything
     }
 
     /// Sets what a cell costs; says whether that changed anything.
@@ -430,10 +437,10 @@ mod tests {
     fn a_changed_grid_equals_a_new_one() {
         let mut grid = Grid::parse("...# .#.. ....").unwrap();
         let stamp = grid.stamp();
-        assert!(!grid.set_free(Cell::new(3, 0), false));
+        assert!(!grid.set_free(&[Cell::new(3, 0)], false));
         assert_eq!(grid.stamp(), stamp);
         for (x, y, free) in [(3, 0, true), (0, 0, false), (3, 2, false), (1, 1, true)] {
-            assert!(grid.set_free(Cell::new(x, y), free));
+            assert!(grid.set_free(&[Cell::new(x, y)], free));
         }
         grid.set_cost(Cell::new(2, 1), 7);
         let fresh = Grid::parse("#... ..7. ...#").unwrap();
@@ -481,9 +488,9 @@ mod tests {
     fn a_blocked_cell_remembers_its_terrain() {
         let mut grid = Grid::parse("7.").unwrap();
         let cell = Cell::new(0, 0);
-        grid.set_free(cell, false);
+        grid.set_free(&[cell], false);
         assert!(grid.is_uniform());
-        grid.set_free(cell, true);
+        grid.set_free(&[cell], true);
         assert_eq!((grid.cost(cell), grid.cost_range()), (7, (1, 7)));
     }
 

@@ -75,7 +75,7 @@ impl Inflated {
                     let block = matches!(change, GridChange::Blocked(_));
                     let mut turned = Vec::new();
                     for &cell in cells {
-                        if self.source.set_free(cell, !block) {
+                        if self.source.set_free(&[cell], !block) {
                             self.count(cell, block, &mut turned);
                         }
                     }
@@ -120,7 +120,7 @@ impl Inflated {
                     *near == 0
                 };
                 let cell = Cell { x, y };
-                if turns && self.grid.set_free(cell, !block) {
+                if turns && self.grid.set_free(&[cell], !block) {
                     turned.push(cell);
                 }
             }

@@ -41,7 +41,9 @@ pub struct LastPath {
     at: usize,
     /// Of what is left.
     cost: GridCost,
-    /// If it is broken: where in it what is left at the start ends, and what is left at the goal begins.
+    /// The problem in which it is broken,
+    broken: Option<Stamp>,
+    /// and where in it what is left at the start ends there, and what is left at the goal begins.
     ends: [Option<usize>; 2],
     /// Nothing was freed since.
     is_best: bool,
@@ -112,7 +114,7 @@ impl LastPath {
 
     /// Remembers what was answered, if it was proved, and short enough for the map.
     pub fn remember(&mut self, problem: &GridProblem, report: &Report<GridProblem>) {
-        self.known = None;
+        (self.known, self.broken) = (None, None);
         if let Outcome::Optimal(best) = &report.outcome
             && is_short(problem, &best.solution)
         {
@@ -132,6 +134,7 @@ impl LastPath {
     }
 
     fn hold(&mut self, revision: &Revision<'_, GridProblem>) -> Option<Hold> {
+        self.broken = None;
         let changes = revision.since(self.known.take())?;
         let problem = revision.problem();
         let grid = problem.grid();
@@ -192,6 +195,7 @@ impl LastPath {
             begin.map(|_| self.at + first),
             leads.then_some(self.at + last),
         ];
+        self.broken = Some(problem.stamp());
         Some(Hold::Broken)
     }
 
@@ -206,21 +210,22 @@ impl LastPath {
         self.cost
     }
 
-    /// What is left at the goal of what was found broken last, or at the start if it `is_backward`; `None`
-    /// beyond [`Word::LIMIT`].
+    /// If it is broken, what is left of it at the goal, or at the start if that `is_backward`. `None` beyond
+    /// [`Word::LIMIT`], too.
     #[must_use]
     pub fn remnant<'p, W: Word>(
         &self,
         problem: &'p GridProblem,
         is_backward: bool,
     ) -> Option<Remnant<'p, W>> {
+        self.broken.filter(|&stamp| stamp == problem.stamp())?;
         let steps = Steps::of(problem);
         let [last, first] = self.ends;
         let mut rest = self.cost;
-        let mut without = |lost: &[Cell]| {
-            let (lost, _) = steps.cost(lost, plainly);
-            rest.straight -= lost.straight;
-            rest.diagonal -= lost.diagonal;
+        let mut without = |cells: &[Cell]| {
+            let (cost, _) = steps.cost(cells, plainly);
+            rest.straight -= cost.straight;
+            rest.diagonal -= cost.diagonal;
         };
         if is_backward {
             let last = last?;
@@ -242,6 +247,7 @@ impl LastPath {
         way: &[Cell],
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Report<GridProblem>> {
+        self.broken.filter(|&stamp| stamp == problem.stamp())?;
         let steps = Steps::of(problem);
         let (&first, &last) = (way.first()?, way.last()?);
         let (more, is_legal) = steps.cost(way, plainly);
@@ -259,22 +265,22 @@ impl LastPath {
         if !is_legal || !leads || !problem.grid().is_free(first) {
             return None;
         }
-        let lost = if is_backward {
-            &self.path[place..]
+        // What comes off the path, and what of that was not walked yet.
+        let (off, from) = if is_backward {
+            (place..self.path.len(), place)
         } else {
-            &self.path[self.at..=place]
+            (0..place + 1, self.at)
         };
-        self.take_off(steps.cost(lost, plainly).0);
+        let (cost, _) = steps.cost(&self.path[from..off.end], plainly);
+        self.take_off(cost);
         self.cost = self.cost + more;
-        self.path.reserve_exact(way.len());
-        if is_backward {
-            self.path.truncate(place);
-            self.path.extend_from_slice(way);
-        } else {
-            self.path.splice(..=place, way.iter().copied());
+        // A vector that grows by itself takes up to twice as much.
+        self.path.reserve_exact(way.len().saturating_sub(off.len()));
+        self.path.splice(off, way.iter().copied());
+        if !is_backward {
             self.at = 0;
         }
-        self.is_best = true;
+        (self.is_best, self.broken) = (true, None);
         let best = self.whole();
         debug_assert_eq!(problem.judge(&best.solution), Ok(best.cost));
         self.known = is_short(problem, &self.path).then(|| problem.stamp());

@@ -145,9 +145,7 @@ impl Problem for GridProblem {
                 Blocked(cells) | Freed(cells) => {
                     let free = matches!(change, Freed(_));
                     let grid = Arc::make_mut(&mut self.grid);
-                    for &cell in cells {
-                        anything |= grid.set_free(cell, free);
-                    }
+                    anything |= grid.set_free(cells, free);
                 }
                 CostChanged(cells, cost) => {
                     let grid = Arc::make_mut(&mut self.grid);
