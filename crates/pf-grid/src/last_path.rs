@@ -100,9 +100,19 @@ fn breaks(steps: &Steps<'_>, path: &[Cell], blocked: Window) -> Option<[usize; 2
     broken
 }
 
-/// The sum of two cells' costs, on a map without terrain.
-fn plainly(_: u32, _: u32) -> u64 {
-    2
+/// What a path costs on a map without terrain.
+fn length(path: &[Cell]) -> GridCost {
+    let is_diagonal = |pair: &&[Cell]| pair[0].x != pair[1].x && pair[0].y != pair[1].y;
+    let diagonal = path.windows(2).filter(is_diagonal).count() as u64;
+    GridCost::of_steps(path.len() as u64 - 1 - diagonal, diagonal)
+}
+
+/// What is left of a cost without a part.
+fn less(all: GridCost, part: GridCost) -> GridCost {
+    GridCost {
+        straight: all.straight - part.straight,
+        diagonal: all.diagonal - part.diagonal,
+    }
 }
 
 impl LastPath {
@@ -166,7 +176,7 @@ impl LastPath {
         if let Some(begin) = begin {
             let sum = |from, to| grid.sum_of_costs(from, to);
             let (walked, _) = steps.cost(&left[..=begin], sum);
-            self.take_off(walked);
+            self.cost = less(self.cost, walked);
             self.at += begin;
         }
         let left = &mut self.path[self.at..];
@@ -199,11 +209,6 @@ impl LastPath {
         Some(Hold::Broken)
     }
 
-    fn take_off(&mut self, walked: GridCost) {
-        self.cost.straight -= walked.straight;
-        self.cost.diagonal -= walked.diagonal;
-    }
-
     /// What is left of it costs so much, if it holds.
     #[must_use]
     pub fn cost(&self) -> GridCost {
@@ -219,22 +224,17 @@ impl LastPath {
         is_backward: bool,
     ) -> Option<Remnant<'p, W>> {
         self.broken.filter(|&stamp| stamp == problem.stamp())?;
-        let steps = Steps::of(problem);
         let [last, first] = self.ends;
         let mut rest = self.cost;
-        let mut without = |cells: &[Cell]| {
-            let (cost, _) = steps.cost(cells, plainly);
-            rest.straight -= cost.straight;
-            rest.diagonal -= cost.diagonal;
-        };
+        let mut take_off = |cells: &[Cell]| rest = less(rest, length(cells));
         if is_backward {
             let last = last?;
-            without(&self.path[last..]);
+            take_off(&self.path[last..]);
             let cells = self.path[self.at..=last].iter().rev();
             return Remnant::of(problem, cells.copied(), rest);
         }
         let first = first?;
-        without(&self.path[self.at..=first]);
+        take_off(&self.path[self.at..=first]);
         Remnant::of(problem, self.path[first..].iter().copied(), rest)
     }
 
@@ -248,9 +248,8 @@ impl LastPath {
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Report<GridProblem>> {
         self.broken.filter(|&stamp| stamp == problem.stamp())?;
-        let steps = Steps::of(problem);
         let (&first, &last) = (way.first()?, way.last()?);
-        let (more, is_legal) = steps.cost(way, plainly);
+        let (more, is_legal) = Steps::of(problem).cost(way, |_, _| 2);
         let place = if is_backward {
             self.ends[0]?.checked_sub(along)?
         } else {
@@ -271,9 +270,7 @@ impl LastPath {
         } else {
             (0..place + 1, self.at)
         };
-        let (cost, _) = steps.cost(&self.path[from..off.end], plainly);
-        self.take_off(cost);
-        self.cost = self.cost + more;
+        self.cost = less(self.cost, length(&self.path[from..off.end])) + more;
         // A vector that grows by itself takes up to twice as much.
         self.path.reserve_exact(way.len().saturating_sub(off.len()));
         self.path.splice(off, way.iter().copied());
