@@ -5,7 +5,7 @@ use crate::{Cell, problem::Steps};
 /// So many steps before a break and after it are put in another order. In drives through a maze 12, 24 and
 /// 40 keep 8,779, 8,799 and 8,871 of some 16,600 paths; the work grows with the square.
 const REACH: usize = 16;
-/// The places from which the rest leads on fit a word a row.
+/// A bit for each place of a row fits a word.
 const _: () = assert!(3 * REACH < 64);
 
 /// A step: how many columns and rows on.
@@ -15,7 +15,7 @@ fn way(from: Cell, to: Cell) -> Way {
     (to.x.wrapping_sub(from.x), to.y.wrapping_sub(from.y))
 }
 
-/// The cell a step on. It may be none.
+/// The cell a step on.
 fn after(from: Cell, step: Way) -> Cell {
     Cell {
         x: from.x.wrapping_add(step.0),

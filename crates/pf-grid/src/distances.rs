@@ -7,7 +7,8 @@ use std::{cmp::Reverse, collections::BinaryHeap};
 /// The distance from every cell to one, the root; [`Word::MAX`] where there is no way.
 ///
 /// Unlike a [`DistanceField`](crate::DistanceField), which knows what one start needs, they are
-/// exact everywhere once made, and stay so through [`repair`](Self::repair). Four bytes a cell in
+/// exact everywhere once made, and stay so through [`repair`](Self::repair); in between some may be
+/// [raised](Self::raise). Four bytes a cell in
 /// 32 bits, six in [`U48`](crate::U48). The root's distance is 0 even where the root is blocked; nothing leads on from it then.
 #[derive(Clone, Debug, Default)]
 pub struct Distances<W: Word> {
@@ -39,7 +40,8 @@ const KEPT: usize = 1 << 14;
 pub struct Sweeper<W: Copy + Ord> {
     open: Buckets<W>,
     queue: BinaryHeap<Reverse<(W, u32)>>,
-    raised: Vec<u32>,
+    /// Ids that have lost their way.
+    cut: Vec<u32>,
 }
 
 impl<W: Word> Sweeper<W> {
@@ -47,8 +49,8 @@ impl<W: Word> Sweeper<W> {
     fn shrink(&mut self) {
         self.queue.clear();
         self.queue.shrink_to(KEPT);
-        self.raised.clear();
-        self.raised.shrink_to(KEPT);
+        self.cut.clear();
+        self.cut.shrink_to(KEPT);
     }
 
     /// Bytes held.
@@ -56,7 +58,7 @@ impl<W: Word> Sweeper<W> {
     pub fn bytes(&self) -> usize {
         self.open.bytes()
             + self.queue.capacity() * size_of::<Reverse<(W, u32)>>()
-            + self.raised.capacity() * size_of::<u32>()
+            + self.cut.capacity() * size_of::<u32>()
     }
 }
 
@@ -93,6 +95,8 @@ impl<W: Word> Distances<W> {
     ///
     /// Source: Koenig and Likhachev, *Adaptive A\**, 2005.
     pub fn raise(&mut self, ids: &[u32], least: impl Fn(u32) -> W) {
+        // All at once: a vector that grows by itself takes up to twice as much.
+        self.raised.reserve_exact(self.room());
         for &id in ids {
             let (was, least) = (self.at(id), least(id));
             if least > was {
@@ -202,7 +206,7 @@ impl<W: Word> Distances<W> {
         sweeper: &mut Sweeper<W>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Swept {
-        let (queue, raised) = (&mut sweeper.queue, &mut sweeper.raised);
+        let (queue, cut) = (&mut sweeper.queue, &mut sweeper.cut);
         let root = steps.layout.id(root);
         let values = &mut self.values;
         let near = || {
@@ -211,7 +215,7 @@ impl<W: Word> Distances<W> {
             around.chain(changed.iter().copied())
         };
         queue.clear();
-        raised.clear();
+        cut.clear();
         let known = near().map(|id| (W::of(values[id as usize]), id));
         queue.extend(known.filter(|&(value, _)| value < W::MAX).map(Reverse));
         let mut expanded = 0;
@@ -235,7 +239,7 @@ impl<W: Word> Distances<W> {
             }
             cx.expanded(|| steps.layout.cell(id));
             values[id as usize] = W::MAX.keep();
-            raised.push(id);
+            cut.push(id);
             // Whose step was legal and is not, or weighs something else, is near a change.
             for (next, weight) in steps.from::<W>(id) {
                 let theirs = W::of(values[next as usize]);
@@ -244,7 +248,7 @@ impl<W: Word> Distances<W> {
                 }
             }
         }
-        for id in near().chain(raised.iter().copied()) {
+        for id in near().chain(cut.iter().copied()) {
             let over = steps.from::<W>(id).filter_map(|(next, weight)| {
                 let rest = W::of(values[next as usize]);
                 (rest < W::MAX).then(|| rest + weight)

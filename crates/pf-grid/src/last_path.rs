@@ -41,9 +41,10 @@ pub struct LastPath {
     at: usize,
     /// Of what is left.
     cost: GridCost,
-    /// The problem in which it is broken,
+    /// The problem in which it is broken.
     broken: Option<Stamp>,
-    /// and where in it what is left at the start ends there, and what is left at the goal begins.
+    /// The places of the last cell of the remnant at the start and of the first of that at the goal, in the
+    /// problem in which it is broken.
     ends: [Option<usize>; 2],
     /// Nothing was freed since.
     is_best: bool,
@@ -58,7 +59,7 @@ pub enum Hold {
     Best,
     /// What is left of it is a path, and cells were freed, so that there may be a shorter one.
     Legal,
-    /// It is broken, or an end moved off it, on a map without terrain: there are [remnants](LastPath::remnant).
+    /// It is broken, or an end moved off it, on a map without terrain: there may be [remnants](LastPath::remnant).
     Broken,
     /// It is forgotten.
     Gone,
@@ -193,7 +194,7 @@ impl LastPath {
             let is_best = self.is_best;
             return Some(if is_best { Hold::Best } else { Hold::Legal });
         }
-        let [first, last] = match broken.filter(|_| !holds) {
+        let [first, last] = match broken {
             None => [left.len() - 1, 0],
             // Behind the last step into what is blocked, and out of it.
             Some([first, last]) => {
@@ -201,6 +202,7 @@ impl LastPath {
                 [first, behind + usize::from(!grid.is_free(left[behind]))]
             }
         };
+        // If the robot has left the path, the first cell may be blocked: no way steps into it, so none joins there.
         self.ends = [
             begin.map(|_| self.at + first),
             leads.then_some(self.at + last),
@@ -239,7 +241,8 @@ impl LastPath {
     }
 
     /// Answers with a way that joins the remnant at the goal so far along, and what is left from there; or what
-    /// leads so far along the remnant at the start, and a way on from there. As what is best, if it is legal.
+    /// leads so far along the remnant at the start, and a way on from there. As what is best, if it is legal:
+    /// that there is none shorter, the caller knows.
     pub fn rejoin(
         &mut self,
         problem: &GridProblem,
@@ -255,7 +258,7 @@ impl LastPath {
         } else {
             self.ends[1]? + along
         };
-        let joined = *self.path.get(place)?;
+        let joined = *self.path.get(place).filter(|_| place >= self.at)?;
         let leads = if is_backward {
             [first, last] == [joined, problem.goal()]
         } else {
@@ -274,9 +277,10 @@ impl LastPath {
         // A vector that grows by itself takes up to twice as much.
         self.path.reserve_exact(way.len().saturating_sub(off.len()));
         self.path.splice(off, way.iter().copied());
-        if !is_backward {
-            self.at = 0;
+        if is_backward {
+            self.path.drain(..self.at);
         }
+        self.at = 0;
         (self.is_best, self.broken) = (true, None);
         let best = self.whole();
         debug_assert_eq!(problem.judge(&best.solution), Ok(best.cost));

@@ -11,7 +11,7 @@ const FAR: usize = 128;
 /// [`LastPath::remnant`](crate::LastPath::remnant).
 ///
 /// A search towards that end need not go on to it, nor the way it finds be followed to there: it ends where a
-/// way of two straight pieces leads to a place where the remnant turns, if that is no longer in all than any
+/// way of two straight pieces leads to where the remnant begins or turns, if that is no longer in all than any
 /// way there could be.
 #[derive(Debug)]
 pub struct Remnant<'p, W> {

@@ -103,6 +103,7 @@ impl<W: Word> Basin<W> {
         self.debt += cx.stats().expanded - before;
         self.marks.shrink();
         self.way.shrink_to(KEPT);
+        self.expanded.clear();
         self.expanded.shrink_to(KEPT);
         if found != Found::Path {
             self.path.clear();
@@ -402,7 +403,11 @@ impl<W: Word> Basin<W> {
 
     /// The last search found out that so much is the least there is, so from what it expanded no less is left
     /// than what the way there leaves of it.
+    ///
+    /// The damage must know of all that changed before: what it calls intact goes by values from when the field
+    /// was exact, or by raised ones whose own ways it knows to be cut.
     fn raise(&mut self, way: Way<W>, whole: W) {
+        debug_assert!(self.sides[way.side].is_noted(&self.log));
         let search = &self.search;
         let left = |id| {
             let g = search.weight(id).map_or(whole, |g| g.min(whole));

@@ -326,6 +326,11 @@ impl<W: Word> Side<W> {
         (self.opened, self.closed) = (false, false);
     }
 
+    /// Whether the damage knows of all that changed.
+    pub(super) fn is_noted(&self, log: &[u32]) -> bool {
+        self.noted == log.len()
+    }
+
     /// Works out what the changes so far do to the field.
     pub(super) fn note(
         &mut self,
@@ -334,7 +339,7 @@ impl<W: Word> Side<W> {
         root: Cell,
         weights: Weights,
     ) {
-        if self.noted == log.len() {
+        if self.is_noted(log) {
             return;
         }
         let octile = weights.octile::<W>(problem.grid(), problem.moves(), root);

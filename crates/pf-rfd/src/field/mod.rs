@@ -39,7 +39,8 @@ params!(RfdFieldParams {
 ///
 /// The answer comes before the upkeep. Where an end moved, the field of the other end holds the
 /// answer: water runs down it. Where cells were blocked, the old way may still hold, else a search
-/// from the end nearer the break goes as far as an old way on is intact. Where cells were freed, the
+/// from the end nearer the break goes as far as an old way on is intact, or to where what is left of the last
+/// path is joined; what it finds out raises the field until cells are freed. Where cells were freed, the
 /// two fields tell what a way over them would cost at the least: either none beats the old one, or a
 /// search that begins at the freed cells finds the best. The note `replanned` says how the answer
 /// came: `kept` (what is left of the last path, or read off the fields), `patched` (over freed
@@ -137,7 +138,7 @@ impl RfdField {
     }
 
     /// The altitude of a cell: its distance to the goal, in cells, as of the last time the field was
-    /// made or repaired. `None` if there is no way from there, or no field.
+    /// made or repaired, or a bound from below that a search has found since. `None` if there is no way from there, or no field.
     #[must_use]
     pub fn altitude(&self, cell: Cell) -> Option<f64> {
         basin!(&self.width, basin => basin.altitude(cell))
@@ -275,11 +276,14 @@ impl Replanner<GridProblem> for RfdField {
             return Ok(report);
         }
         cx.note("replanned", how);
-        if let Found::Joined { is_backward, along } = found
-            && let way = basin!(&self.width, basin => &basin.way)
-            && let Some(report) = self.last.rejoin(problem, (is_backward, along), way, cx)
-        {
-            return Ok(report);
+        if let Found::Joined { is_backward, along } = found {
+            let way = basin!(&self.width, basin => &basin.way);
+            let report = self.last.rejoin(problem, (is_backward, along), way, cx);
+            debug_assert!(
+                report.is_some(),
+                "the judge refuses a way that was found legal"
+            );
+            return report.map_or_else(|| self.plan(problem, cx), Ok);
         }
         Ok(self.report(problem, found, cx))
     }
