@@ -76,7 +76,7 @@ fn join(
     None
 }
 
-/// Of paths longer than what is looked at together, on open and on strewn maps, under all rules.
+/// On open and on strewn maps, under all rules.
 #[test]
 fn a_path_is_kept_as_long_as_it_is_what_it_is_said_to_be_and_no_shorter() {
     let mut rng = seeded(71);

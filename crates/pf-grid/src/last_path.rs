@@ -69,8 +69,6 @@ pub enum Hold {
 const SHORT: usize = 1 << 12;
 /// and one of a cell in so many on large ones: eight bytes a step are half a byte a cell.
 const SPARSE: usize = 16;
-/// So many steps are looked at together.
-const CHUNK: usize = 32;
 
 /// Whether a path is remembered.
 fn is_short(problem: &GridProblem, path: &[Cell]) -> bool {
@@ -81,22 +79,17 @@ fn is_short(problem: &GridProblem, path: &[Cell]) -> bool {
 fn breaks(steps: &Steps<'_>, path: &[Cell], blocked: Window) -> Option<[usize; 2]> {
     let mut broken: Option<[usize; 2]> = None;
     let mut at = 0;
-    while let Some(&cell) = path.get(at) {
-        // A step brings a path no more than a cell nearer.
+    while let [cell, next, ..] = path[at..] {
+        // A step is hindered by cells beside both its ends, and brings a path no more than one nearer.
         let away = blocked.away(cell);
-        if away > CHUNK {
-            at += away - 1;
+        if away > 1 {
+            at = path.len().min(at + away - 1);
             continue;
         }
-        let cells = &path[at..path.len().min(at + CHUNK + 1)];
-        if blocked.touches(cells) {
-            for (at, pair) in (at..).zip(cells.windows(2)) {
-                if !steps.is_legal(pair[0], pair[1]) {
-                    broken = Some([broken.map_or(at, |[first, _]| first), at]);
-                }
-            }
+        if !steps.is_legal(cell, next) {
+            broken = Some([broken.map_or(at, |[first, _]| first), at]);
         }
-        at += CHUNK;
+        at += 1;
     }
     broken
 }

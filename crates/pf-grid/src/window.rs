@@ -53,14 +53,4 @@ impl Window {
             |at: u32, [from, to]: [u32; 2]| from.saturating_sub(at).max(at.saturating_sub(to));
         along(cell.x, self.columns).max(along(cell.y, self.rows)) as usize
     }
-
-    /// Whether any of these cells, counted as the window is, lies in it or beside it.
-    pub(crate) fn touches(self, cells: &[Cell]) -> bool {
-        let beside =
-            |at: u32, [from, to]: [u32; 2]| at.wrapping_sub(from).wrapping_add(1) <= to - from + 2;
-        // To the end, without a branch: several cells at a time.
-        cells.iter().fold(false, |any, cell| {
-            any | (beside(cell.x, self.columns) & beside(cell.y, self.rows))
-        })
-    }
 }
