@@ -304,13 +304,9 @@ impl Grid {
                 continue;
             }
             anything = true;
-            let cost = usize::from(self.cost_id(id));
             self.free[id as usize / 64] ^= 1 << (id % 64);
-            self.census[cost] = if free {
-                self.census[cost] + 1
-            } else {
-                self.census[cost] - 1
-            };
+            let count = &mut self.census[usize::from(self.cost_id(id))];
+            *count = if free { *count + 1 } else { *count - 1 };
             for (k, offset) in offsets.into_iter().enumerate() {
                 // Seen from the neighbour, this cell lies in the opposite direction.
                 let neighbour = id.wrapping_add_signed(offset) as usize;
