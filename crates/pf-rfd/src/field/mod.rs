@@ -138,7 +138,8 @@ impl RfdField {
     }
 
     /// The altitude of a cell: its distance to the goal, in cells, as of the last time the field was
-    /// made or repaired, or a bound from below that a search has found since. `None` if there is no way from there, or no field.
+    /// made or repaired, or a bound from below that a search has found since. `None` if there is no way
+    /// from there, or no field.
     #[must_use]
     pub fn altitude(&self, cell: Cell) -> Option<f64> {
         basin!(&self.width, basin => basin.altitude(cell))
