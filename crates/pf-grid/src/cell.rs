@@ -1,3 +1,4 @@
+use crate::DIRECTIONS;
 use std::{fmt, str::FromStr};
 
 /// A cell by column and row, from 0; `y` runs down, as in Moving AI files.
@@ -14,6 +15,17 @@ impl Cell {
     #[must_use]
     pub const fn new(x: u32, y: u32) -> Self {
         Self { x, y }
+    }
+
+    /// The cell a step on in one of the [`DIRECTIONS`]. Beyond the map's border it is none of the map's.
+    #[inline]
+    #[must_use]
+    pub const fn towards(self, direction: usize) -> Self {
+        let (dx, dy) = DIRECTIONS[direction];
+        Self {
+            x: self.x.wrapping_add_signed(dx),
+            y: self.y.wrapping_add_signed(dy),
+        }
     }
 }
 

@@ -256,11 +256,7 @@ impl Grid {
         };
         let legal_steps = (0..8).filter(move |k| legal >> k & 1 == 1);
         legal_steps.map(move |k| {
-            let (dx, dy) = DIRECTIONS[k];
-            let next = Cell {
-                x: cell.x.wrapping_add_signed(dx),
-                y: cell.y.wrapping_add_signed(dy),
-            };
+            let next = cell.towards(k);
             (next, self.step_cost(cell, next))
         })
     }

@@ -164,9 +164,6 @@ impl LastPath {
         let left = &self.path[self.at..];
         let leads = left.last() == Some(&problem.goal());
         let begin = left.iter().position(|&cell| cell == problem.start());
-        if !(is_plain || leads && begin.is_some()) {
-            return None;
-        }
         if let Some(begin) = begin {
             let sum = |from, to| grid.sum_of_costs(from, to);
             let (walked, _) = steps.cost(&left[..=begin], sum);
@@ -175,17 +172,14 @@ impl LastPath {
         }
         let left = &mut self.path[self.at..];
         let broken = blocked.and_then(|blocked| breaks(&steps, left, blocked));
-        let mut holds = broken.is_none();
-        if let Some(broken) = broken {
-            if !is_plain {
-                return None;
-            }
-            holds = leads && begin.is_some() && bend(&steps, left, broken);
-        }
-        if holds && leads && begin.is_some() {
+        let is_whole = leads && begin.is_some();
+        if is_whole && broken.is_none_or(|broken| is_plain && bend(&steps, left, broken)) {
             self.known = Some(problem.stamp());
             let is_best = self.is_best;
             return Some(if is_best { Hold::Best } else { Hold::Legal });
+        }
+        if !is_plain {
+            return None;
         }
         let [first, last] = match broken {
             None => [left.len() - 1, 0],
@@ -252,20 +246,15 @@ impl LastPath {
             self.ends[1]? + along
         };
         let joined = *self.path.get(place).filter(|_| place >= self.at)?;
-        let leads = if is_backward {
-            [first, last] == [joined, problem.goal()]
+        // What comes off the path, what of that was not walked yet, and where the way leads from and to.
+        let (off, from, ends) = if is_backward {
+            (place..self.path.len(), place, [joined, problem.goal()])
         } else {
-            [first, last] == [problem.start(), joined]
+            (0..place + 1, self.at, [problem.start(), joined])
         };
-        if !is_legal || !leads || !problem.grid().is_free(first) {
+        if !is_legal || [first, last] != ends || !problem.grid().is_free(first) {
             return None;
         }
-        // What comes off the path, and what of that was not walked yet.
-        let (off, from) = if is_backward {
-            (place..self.path.len(), place)
-        } else {
-            (0..place + 1, self.at)
-        };
         self.cost = less(self.cost, length(&self.path[from..off.end])) + more;
         // A vector that grows by itself takes up to twice as much.
         self.path.reserve_exact(way.len().saturating_sub(off.len()));
@@ -273,13 +262,22 @@ impl LastPath {
         if is_backward {
             self.path.drain(..self.at);
         }
-        self.at = 0;
-        (self.is_best, self.broken) = (true, None);
+        (self.at, self.broken) = (0, None);
+        self.known = is_short(problem, &self.path).then(|| problem.stamp());
+        Some(self.report(problem, cx))
+    }
+
+    /// Answers with what is left of it, as what is best.
+    fn report(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Report<GridProblem> {
         let best = self.whole();
         debug_assert_eq!(problem.judge(&best.solution), Ok(best.cost));
-        self.known = is_short(problem, &self.path).then(|| problem.stamp());
+        self.is_best = true;
         cx.improved(|| best.clone());
-        Some(cx.report(Outcome::Optimal(best)))
+        cx.report(Outcome::Optimal(best))
     }
 
     fn whole(&self) -> Solved<GridProblem> {
@@ -301,12 +299,9 @@ impl LastPath {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Report<GridProblem>> {
-        let best = self.left()?;
-        debug_assert_eq!(problem.judge(&best.solution), Ok(best.cost));
-        self.is_best = true;
+        self.known?;
         cx.note("replanned", "kept");
-        cx.improved(|| best.clone());
-        Some(cx.report(Outcome::Optimal(best)))
+        Some(self.report(problem, cx))
     }
 
     /// Follows a revision, and answers if what is left is still best and the budget allows an iteration.

@@ -185,13 +185,25 @@ impl<'g> Steps<'g> {
         }
     }
 
+    /// The id of a cell; of what is no cell that of another, or none.
+    #[inline]
+    fn id(&self, cell: Cell) -> u32 {
+        let row = cell.y.wrapping_add(1).wrapping_mul(self.pitch);
+        row.wrapping_add(cell.x).wrapping_add(1)
+    }
+
+    /// The legal steps from a free cell, by its id.
+    #[inline]
+    fn legal_at(&self, id: u32) -> u16 {
+        // The border is never free, so no legal step leaves the grid.
+        let around = self.around.get(id as usize).copied().unwrap_or(0);
+        self.legal[usize::from(around)]
+    }
+
     /// The legal steps from a free cell, a bit for the [`place`](Self::place) of each.
     #[inline]
     pub(crate) fn from(&self, cell: Cell) -> u16 {
-        let row = cell.y.wrapping_add(1).wrapping_mul(self.pitch);
-        let id = row.wrapping_add(cell.x).wrapping_add(1);
-        let around = self.around.get(id as usize).copied().unwrap_or(0);
-        self.legal[usize::from(around)]
+        self.legal_at(self.id(cell))
     }
 
     /// The place of a step by so many columns and rows.
@@ -219,24 +231,17 @@ impl<'g> Steps<'g> {
         // Rows in the upper half, columns in the lower one. What the lower half borrows when it falls
         // below nothing leaves it far too large.
         let packed = |cell: Cell| u64::from(cell.y) << 32 | u64::from(cell.x);
-        // Of what is no cell the id of another, or none.
-        let id = |cell: Cell| {
-            let row = cell.y.wrapping_add(1).wrapping_mul(self.pitch);
-            row.wrapping_add(cell.x).wrapping_add(1)
-        };
         let (mut all, mut diagonal, mut far, mut legal) = (0, 0, 0, 1);
         let Some((&first, rest)) = path.split_first() else {
             return (GridCost::ZERO, true);
         };
-        let (mut from, mut from_id) = (packed(first), id(first));
+        let (mut from, mut from_id) = (packed(first), self.id(first));
         for &cell in rest {
-            let (to, to_id) = (packed(cell), id(cell));
+            let (to, to_id) = (packed(cell), self.id(cell));
             let off = to.wrapping_add(ONES).wrapping_sub(from);
             far |= off;
             let place = (off >> 30 | off) & 15;
-            // The border is never free, so no legal step leaves the grid.
-            let around = self.around.get(from_id as usize).copied().unwrap_or(0);
-            legal &= self.legal[usize::from(around)] >> place;
+            legal &= self.legal_at(from_id) >> place;
             let cost = cost(from_id, to_id);
             all += cost;
             // Those in even columns and rows.

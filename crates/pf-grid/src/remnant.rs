@@ -1,6 +1,6 @@
 //! What is left of a path at one end, and how to join it.
 
-use crate::{Apart, Cell, DIRECTIONS, GridCost, GridProblem, Moves, Weights, Word};
+use crate::{Apart, Cell, GridCost, GridProblem, Moves, Weights, Word};
 
 /// So many places of it can be joined at the most,
 const PLACES: usize = 6;
@@ -82,10 +82,8 @@ impl<'p, W: Word> Remnant<'p, W> {
                 way.push(from);
                 let mut cell = from;
                 for (k, count) in pieces {
-                    let (dx, dy) = DIRECTIONS[k as usize];
                     way.extend((0..count).map(|_| {
-                        cell.x = cell.x.wrapping_add_signed(dx);
-                        cell.y = cell.y.wrapping_add_signed(dy);
+                        cell = cell.towards(k as usize);
                         cell
                     }));
                 }

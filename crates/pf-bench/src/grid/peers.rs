@@ -14,7 +14,7 @@ use grid_pathfinding::PathingGrid;
 use grid_util::{grid::ValueGrid as _, point::Point};
 use petgraph::csr::Csr;
 use pf_core::Problem as _;
-use pf_grid::{Cell, DIRECTIONS, Grid, GridProblem, Moves, Word};
+use pf_grid::{Cell, Grid, GridProblem, Moves, Word};
 
 /// The legal steps from a cell in the weights all contenders count in.
 fn successors(problem: &GridProblem, at: Cell) -> impl Iterator<Item = (Cell, u32)> + use<> {
@@ -24,11 +24,7 @@ fn successors(problem: &GridProblem, at: Cell) -> impl Iterator<Item = (Cell, u3
 fn steps(grid: &Grid, moves: Moves, at: Cell) -> impl Iterator<Item = (Cell, u32)> + use<> {
     let legal = moves.legal(grid.around_id(grid.layout().id(at)));
     (0..8).filter(move |k| legal >> k & 1 == 1).map(move |k| {
-        let (dx, dy) = DIRECTIONS[k];
-        let next = Cell {
-            x: at.x.wrapping_add_signed(dx),
-            y: at.y.wrapping_add_signed(dy),
-        };
+        let next = at.towards(k);
         let weight = if k < 4 { u32::STRAIGHT } else { u32::DIAGONAL };
         (next, weight)
     })

@@ -140,8 +140,16 @@ impl<W: Word> Basin<W> {
         }
         // Exact fields first.
         ways.sort_by_key(|way| way.is_none_or(|way| self.sides[way.side].since < self.log.len()));
-        let last = (fate == Hold::Broken).then_some(last);
-        let (found, intact) = self.read_off(problem, &mut ways, last);
+        let remnants = [false, true].map(|is_backward| {
+            let is_of_use = ways
+                .iter()
+                .flatten()
+                .any(|way| way.is_backward == is_backward);
+            is_of_use
+                .then(|| last.remnant(problem, is_backward))
+                .flatten()
+        });
+        let (found, intact) = self.read_off(problem, &mut ways, &remnants);
         if let Some(found) = found {
             return (found, How::Kept);
         }
@@ -158,8 +166,8 @@ impl<W: Word> Basin<W> {
         let nearer = ways.into_iter().flatten().min_by_key(|way| way.holds);
         match intact.or(nearer) {
             Some(way) => {
-                let remnant = last.and_then(|last| last.remnant(problem, way.is_backward));
-                self.look(problem, way, intact.is_some(), remnant.as_ref(), cx)
+                let remnant = remnants[usize::from(way.is_backward)].as_ref();
+                self.look(problem, way, intact.is_some(), remnant, cx)
             }
             None => self.afar(problem, cx),
         }
@@ -180,7 +188,7 @@ impl<W: Word> Basin<W> {
         &mut self,
         problem: &GridProblem,
         ways: &mut [Option<Way<W>>; 2],
-        last: Option<&LastPath>,
+        remnants: &[Option<Remnant<'_, W>>; 2],
     ) -> (Option<Found>, Option<Way<W>>) {
         let layout = problem.grid().layout();
         for way in ways.iter_mut().flatten() {
@@ -193,7 +201,7 @@ impl<W: Word> Basin<W> {
                 continue;
             }
             if is_proof
-                && let Some(remnant) = last.and_then(|last| last.remnant(problem, way.is_backward))
+                && let Some(remnant) = &remnants[usize::from(way.is_backward)]
                 && let Some(along) = remnant.join(layout.cell(way.from), way.whole, &mut self.way)
             {
                 return (Some(self.joined(way.is_backward, along)), None);
@@ -339,7 +347,6 @@ impl<W: Word> Basin<W> {
         let (marks, line) = (&mut self.marks, &mut self.way);
         marks.clear(layout.len());
         let expanded = &mut self.expanded;
-        expanded.clear();
         // No field is raised where cells were freed.
         let most = if side.opened { 0 } else { side.field.room() };
         let (mut count, mut joined) = (0, None);

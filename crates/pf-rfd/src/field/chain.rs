@@ -1,6 +1,6 @@
 //! Paths that take a byte a step.
 
-use pf_grid::{Cell, DIRECTIONS, Layout};
+use pf_grid::{Cell, Layout};
 
 /// What scratch memory keeps at the most, in entries: to fill more takes far longer than to ask
 /// for memory again.
@@ -69,11 +69,7 @@ impl Chain {
     pub(super) fn walk(&self, layout: &Layout) -> impl Iterator<Item = Cell> + '_ {
         let mut cell = layout.cell(self.first);
         let on = self.steps.iter().map(move |&step| {
-            let (dx, dy) = DIRECTIONS[usize::from(step) & 7];
-            cell = Cell {
-                x: cell.x.wrapping_add_signed(dx),
-                y: cell.y.wrapping_add_signed(dy),
-            };
+            cell = cell.towards(usize::from(step) & 7);
             cell
         });
         std::iter::once(layout.cell(self.first)).chain(on)
