@@ -354,6 +354,22 @@ impl<'a, P: Problem> Context<'a, P> {
         self.notes.push(Note { key, text });
     }
 
+    /// Does work that may take so many more iterations at the most. That it was cut short by this is not
+    /// reported; the caller knows.
+    pub fn at_most<R>(&mut self, iterations: u64, work: impl FnOnce(&mut Self) -> R) -> R {
+        let whole = self.budget.iterations;
+        let most = self.stats.iterations.saturating_add(iterations);
+        self.budget.iterations = Some(whole.map_or(most, |whole| whole.min(most)));
+        self.calm_until = 0;
+        let result = work(self);
+        self.budget.iterations = whole;
+        self.calm_until = 0;
+        if self.stop == Stop::Iterations && whole.is_none_or(|whole| most < whole) {
+            self.stop = Stop::Finished;
+        }
+        result
+    }
+
     /// Lets another planner work on another problem within the same budget, seed and books. The
     /// child's events are its own affair; its work and its notes count here.
     pub fn child<Q: Problem, R>(&mut self, work: impl FnOnce(&mut Context<'_, Q>) -> R) -> R {

@@ -21,6 +21,15 @@ struct Record<K> {
     closed: bool,
 }
 
+/// What a search is to find.
+#[derive(Clone, Copy, Debug)]
+struct Aim<W> {
+    /// A path that weighs less.
+    bound: W,
+    /// And to keep what need not be expanded for that.
+    keeps: bool,
+}
+
 /// How a search ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum End<W> {
@@ -47,6 +56,8 @@ pub struct Search<W: Word> {
     records: Vec<Record<W::Kept>>,
     generation: u16,
     open: Buckets<W>,
+    /// What a search that keeps it had no need to expand after it had arrived.
+    later: Vec<(u32, W)>,
     layout: Option<Layout>,
     /// Where the last search's best path was known to go on.
     reached: u32,
@@ -89,6 +100,53 @@ impl<W: Word> Search<W> {
         self.run_from(problem, &seeds, W::LIMIT, heuristic, arrive, cx)
     }
 
+    /// The same, so that [`go_on`](Self::go_on) can.
+    pub fn run_keeping(
+        &mut self,
+        problem: &GridProblem,
+        start: Cell,
+        heuristic: impl Fn(u32) -> Option<W>,
+        arrive: impl FnMut(u32, W) -> Option<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
+        let seeds = [(problem.grid().layout().id(start), W::default())];
+        let aim = Aim {
+            bound: W::LIMIT,
+            keeps: true,
+        };
+        self.run_within(problem, &seeds, aim, heuristic, arrive, cx)
+    }
+
+    /// Goes on with a search [`run_keeping`](Self::run_keeping), by the same problem and heuristic: from where
+    /// all cells are expanded over which paths are shorter than `known`, to where they are for `until`. Says how
+    /// far it came within the budget.
+    pub fn go_on(
+        &mut self,
+        problem: &GridProblem,
+        (mut known, until): (W, W),
+        heuristic: impl Fn(u32) -> Option<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> W {
+        for (id, g) in self.later.drain(..) {
+            let record = &mut self.records[id as usize];
+            // Where it arrived nothing was expanded.
+            record.closed &= W::of(record.g) != g;
+            if let Some(least) = heuristic(id) {
+                self.open.push(g + least, id, g);
+            }
+        }
+        while known < until {
+            let bound = until.min(known + W::STRAIGHT);
+            let aim = Aim { bound, keeps: true };
+            let end = self.expand(problem, aim, false, &heuristic, |_, _| None, cx);
+            if end == End::Cut {
+                break;
+            }
+            known = bound;
+        }
+        known
+    }
+
     /// The same from several ids, each with its weight to begin with, for a path that weighs less
     /// than `bound`: [`End::Exhausted`] means that there is none. Blocked seeds do not count.
     pub fn run_from(
@@ -100,11 +158,26 @@ impl<W: Word> Search<W> {
         arrive: impl FnMut(u32, W) -> Option<W>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
+        let aim = Aim {
+            bound,
+            keeps: false,
+        };
+        self.run_within(problem, seeds, aim, heuristic, arrive, cx)
+    }
+
+    fn run_within(
+        &mut self,
+        problem: &GridProblem,
+        seeds: &[(u32, W)],
+        aim: Aim<W>,
+        heuristic: impl Fn(u32) -> Option<W>,
+        arrive: impl FnMut(u32, W) -> Option<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
         let grid = problem.grid();
         let weights = Weights::of(grid);
-        let moves = problem.moves();
         self.begin(grid.layout());
-        let layout = grid.layout();
+        self.later.clear();
         let key = |&(id, g): &(u32, W)| {
             let least = grid.is_free_id(id).then(|| heuristic(id))??;
             Some(g + least)
@@ -115,7 +188,6 @@ impl<W: Word> Search<W> {
         // One step changes the key by its weight and the heuristic by no more than that. Where seeds
         // lie further apart than the list is wide, some are looked at early, which is no harm.
         let reach = weights.reach();
-
         self.open.reset(first, reach, weights.shift::<W>());
         let mut beyond = false;
         for seed in seeds {
@@ -124,7 +196,7 @@ impl<W: Word> Search<W> {
             if let Some(key) = key(seed)
                 && known.is_none_or(|known| g < known)
             {
-                if key >= bound {
+                if key >= aim.bound {
                     beyond = true;
                     continue;
                 }
@@ -137,20 +209,35 @@ impl<W: Word> Search<W> {
                 self.open.push(key, id, g);
             }
         }
+        self.expand(problem, aim, beyond, heuristic, arrive, cx)
+    }
+
+    fn expand(
+        &mut self,
+        problem: &GridProblem,
+        aim: Aim<W>,
+        beyond: bool,
+        heuristic: impl Fn(u32) -> Option<W>,
+        arrive: impl FnMut(u32, W) -> Option<W>,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
+        let (grid, moves) = (problem.grid(), problem.moves());
+        let (layout, weights) = (grid.layout(), Weights::of(grid));
+        let aim = (aim, beyond);
         if weights.is_uniform() {
             let pruned = Pruned {
                 grid,
                 moves,
                 successors: successors(moves),
             };
-            self.search(layout, (bound, beyond), heuristic, arrive, &pruned, cx)
+            self.search(layout, aim, heuristic, arrive, &pruned, cx)
         } else {
             let weighed = Weighed {
                 grid,
                 moves,
                 weights,
             };
-            self.search(layout, (bound, beyond), heuristic, arrive, &weighed, cx)
+            self.search(layout, aim, heuristic, arrive, &weighed, cx)
         }
     }
 
@@ -176,7 +263,7 @@ impl<W: Word> Search<W> {
     fn search<S: Steps<W>>(
         &mut self,
         layout: &Layout,
-        (most, mut beyond): (W, bool),
+        (aim, mut beyond): (Aim<W>, bool),
         heuristic: impl Fn(u32) -> Option<W>,
         mut arrive: impl FnMut(u32, W) -> Option<W>,
         steps: &S,
@@ -185,13 +272,15 @@ impl<W: Word> Search<W> {
         let offsets = layout.offsets();
         let generation = self.generation;
         // No path as heavy as this is of interest, first for exactness, then for being no better.
-        let mut bound = most;
+        let mut bound = aim.bound;
+        let mut limit = if aim.keeps { W::LIMIT } else { bound };
         while let Some((id, g)) = self.open.pop(bound) {
             let record = &mut self.records[id as usize];
             if record.closed || W::of(record.g) != g {
                 continue;
             }
             if !cx.proceed() {
+                self.open.push(W::default(), id, g);
                 return End::Cut;
             }
             record.closed = true;
@@ -200,10 +289,14 @@ impl<W: Word> Search<W> {
             if let Some(rest) = arrive(id, g) {
                 if g + rest < bound {
                     bound = g + rest;
+                    limit = bound;
                     self.reached = id;
                 }
                 // There is no better way on from here.
                 if heuristic(id).is_none_or(|least| least >= rest) {
+                    if aim.keeps {
+                        self.later.push((id, g));
+                    }
                     continue;
                 }
             }
@@ -242,16 +335,18 @@ impl<W: Word> Search<W> {
                     continue;
                 };
                 let key = next_g + least;
-                if key < bound {
+                if key < limit {
                     self.open.push(key, next, next_g);
+                } else if aim.keeps && bound < aim.bound {
+                    self.later.push((next, next_g));
                 } else {
                     beyond = true;
                 }
             }
         }
-        if bound < most {
+        if bound < aim.bound {
             End::Goal(bound)
-        } else if beyond && most == W::LIMIT {
+        } else if beyond && aim.bound == W::LIMIT {
             End::TooFar
         } else {
             End::Exhausted
@@ -373,7 +468,9 @@ impl<W: Word> Search<W> {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.records.capacity() * size_of::<Record<W::Kept>>() + self.open.bytes()
+        self.records.capacity() * size_of::<Record<W::Kept>>()
+            + self.open.bytes()
+            + self.later.capacity() * size_of::<(u32, W)>()
     }
 }
 

@@ -1,6 +1,6 @@
 //! Distances to the goal: of the last plan, until a field that can be repaired takes its place.
 
-use pf_core::Context;
+use pf_core::{Context, Stamp};
 use pf_grid::{Cell, DistanceField, End, GridProblem, Layout, Search, Upkeep, Weights, Word};
 
 /// What is known of the distances to one goal.
@@ -13,11 +13,29 @@ pub(super) struct Distances<W: Word> {
     layout: Option<Layout>,
     /// Rooted at the goal.
     search: Search<W>,
-    /// The start that the search was for and its distance, [`Word::MAX`] if the goal is out of
-    /// reach from there; while the search is what is known.
-    planned: Option<(Cell, W)>,
+    /// While the search is what is known.
+    planned: Option<Planned<W>>,
     field: DistanceField<W>,
 }
+
+/// What a search was for, and what it found.
+#[derive(Clone, Copy, Debug)]
+struct Planned<W> {
+    grid: Stamp,
+    start: Cell,
+    /// The start's distance, [`Word::MAX`] if the goal is out of reach from there.
+    whole: W,
+    /// Every cell was expanded over which a path from the start is shorter than that.
+    known: W,
+    /// So many expansions may be spent on others.
+    spare: u64,
+}
+
+/// How far beyond the shortest paths from the start what lies near them is looked at, in straight steps: a
+/// detour of half as many there and back.
+const AROUND: u32 = 64;
+/// So many expansions are always worth it.
+const LEAST: u64 = 1 << 12;
 
 impl<W: Word> Default for Distances<W> {
     fn default() -> Self {
@@ -59,18 +77,51 @@ impl<W: Word> Distances<W> {
         // Steps weigh the same both ways.
         let octile = Weights::of(grid).octile::<W>(grid, problem.moves(), start);
         let id = grid.layout().id(start);
-        // As if the last step weighed a little more: so that it goes on to every cell on any of the
-        // shortest paths. Whoever leaves one of them soon finds the others.
-        let arrive = |at, _| (at == id).then_some(W::ONE);
-        let end = self
-            .search
-            .run_until(problem, problem.goal(), |at| Some(octile(at)), arrive, cx);
-        self.planned = match end {
-            End::Goal(whole) => Some((start, whole - W::ONE)),
-            End::Exhausted => Some((start, W::MAX)),
-            End::Cut | End::TooFar => None,
+        let arrive = |at, _| (at == id).then(W::default);
+        let before = cx.stats().expanded;
+        let end =
+            self.search
+                .run_keeping(problem, problem.goal(), |at| Some(octile(at)), arrive, cx);
+        let whole = match end {
+            End::Goal(whole) => whole,
+            End::Exhausted => W::MAX,
+            End::Cut | End::TooFar => return end,
         };
+        self.planned = Some(Planned {
+            grid: grid.stamp(),
+            start,
+            whole,
+            known: whole,
+            spare: (cx.stats().expanded - before).max(LEAST),
+        });
         end
+    }
+
+    /// Lets a plan go on, if nothing has changed since, to cells near the shortest paths: for no more than it has
+    /// taken. Whoever leaves a path, or finds it blocked, is soon among cells whose distances are known.
+    pub(super) fn look_around(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) {
+        let grid = problem.grid();
+        let Some(planned) = &mut self.planned else {
+            return;
+        };
+        if planned.grid != grid.stamp() || planned.spare == 0 || planned.whole == W::MAX {
+            return;
+        }
+        let weights = Weights::of(grid);
+        let octile = weights.octile::<W>(grid, problem.moves(), planned.start);
+        let around = weights.apart::<W>(problem.moves()).by(AROUND, 0);
+        let until = (planned.whole + around).min(W::LIMIT);
+        let search = &mut self.search;
+        let reach = (planned.known, until);
+        let before = cx.stats().expanded;
+        planned.known = cx.at_most(planned.spare, |cx| {
+            search.go_on(problem, reach, |at| Some(octile(at)), cx)
+        });
+        planned.spare -= cx.stats().expanded - before;
     }
 
     /// Makes them anew, to repair.
@@ -109,14 +160,19 @@ impl<W: Word> Distances<W> {
     /// See [`DistanceField::settled`].
     #[inline]
     pub(super) fn settled(&self) -> Option<(Cell, W)> {
-        self.planned.or_else(|| self.field.settled())
+        match self.planned {
+            Some(planned) => Some((planned.start, planned.whole)),
+            None => self.field.settled(),
+        }
     }
 
     /// See [`DistanceField::estimate`].
     #[inline]
     pub(super) fn estimate(&self, id: u32, to_goal: W, to_start: W) -> (W, bool) {
         match self.planned {
-            Some((_, whole)) => self.search.estimate(id, whole, to_goal, to_start),
+            Some(planned) => self
+                .search
+                .estimate(id, planned.known, to_goal, to_start),
             None => self.field.estimate(id, to_goal, to_start),
         }
     }

@@ -147,9 +147,17 @@ impl<W: Word> Guided<W> {
     }
 
     /// Does what can be done before the next answer is asked for.
-    pub(super) fn prepare(&mut self, problem: &GridProblem) {
+    pub(super) fn prepare(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) {
         self.learn();
         self.distances.prepare(problem);
+        let is_basis = self.basis.is_some_and(|(goal, _)| goal == problem.goal());
+        if is_basis {
+            self.distances.look_around(problem, cx);
+        }
     }
 
     /// Nothing changed yet.

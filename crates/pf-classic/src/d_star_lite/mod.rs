@@ -374,7 +374,7 @@ impl Replanner<GridProblem> for DStarLite {
         if self.known != Some(problem.stamp()) || !cx.proceed() {
             return;
         }
-        guided!(&mut self.width, guided => guided.prepare(problem));
+        guided!(&mut self.width, guided => guided.prepare(problem, cx));
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)
             && self.repair(problem, cx).is_none()
