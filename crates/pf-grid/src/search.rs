@@ -418,15 +418,15 @@ impl<W: Word> Search<W> {
     pub fn estimate(&self, id: u32, whole: W, to_start: W, to_goal: W) -> (W, bool) {
         let record = self.records[id as usize];
         let reached = record.generation == self.generation;
+        let g = W::of(record.g);
         if whole == W::MAX {
-            return (if reached { W::of(record.g) } else { W::MAX }, true);
+            return (if reached { g } else { W::MAX }, true);
         }
-        // Every cell over which a path was shorter than the whole was expanded at its least weight.
-        if reached && record.closed && W::of(record.g) + to_goal <= whole {
-            return (W::of(record.g), true);
-        }
+        // Every cell over which a path was shorter than the whole was expanded at its least weight. No branches:
+        // among many cells they are hard to guess.
+        let exact = reached & record.closed & (g <= whole) & (g.min(whole) + to_goal <= whole);
         let over = whole.max(to_goal) - to_goal;
-        (to_start.max(over), false)
+        (if exact { g } else { to_start.max(over) }, exact)
     }
 
     /// The neighbour over which an id is `left` from the last search's start, by a step that is

@@ -20,6 +20,15 @@ impl Window {
         all.rows = [all.rows[0].min(y), all.rows[1].max(y)];
     }
 
+    /// With the places beside it; it does not touch the border.
+    pub(crate) fn grown(self) -> Self {
+        let grown = |[first, last]: [u32; 2]| [first - 1, last + 1];
+        Self {
+            columns: grown(self.columns),
+            rows: grown(self.rows),
+        }
+    }
+
     /// Both, and what lies between them.
     pub(crate) fn with(self, other: Self) -> Self {
         let mut all = Some(self);
@@ -32,7 +41,13 @@ impl Window {
         (self.columns[1] - self.columns[0]) as usize + 1
     }
 
-    #[cfg(test)]
+    /// The places along its sides; corners come twice.
+    pub(crate) fn edge(self) -> impl Iterator<Item = (u32, u32)> {
+        let ([left, right], [top, bottom]) = (self.columns, self.rows);
+        let level = (left..=right).flat_map(move |x| [(x, top), (x, bottom)]);
+        level.chain((top..=bottom).flat_map(move |y| [(left, y), (right, y)]))
+    }
+
     pub(crate) fn has(self, (x, y): (u32, u32)) -> bool {
         (self.columns[0]..=self.columns[1]).contains(&x)
             && (self.rows[0]..=self.rows[1]).contains(&y)

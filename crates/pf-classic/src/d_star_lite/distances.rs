@@ -99,11 +99,7 @@ impl<W: Word> Distances<W> {
 
     /// Lets a plan go on, if nothing has changed since, to cells near the shortest paths: for no more than it has
     /// taken. Whoever leaves a path, or finds it blocked, is soon among cells whose distances are known.
-    pub(super) fn look_around(
-        &mut self,
-        problem: &GridProblem,
-        cx: &mut Context<'_, GridProblem>,
-    ) {
+    pub(super) fn look_around(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
         let grid = problem.grid();
         let Some(planned) = &mut self.planned else {
             return;
@@ -170,9 +166,7 @@ impl<W: Word> Distances<W> {
     #[inline]
     pub(super) fn estimate(&self, id: u32, to_goal: W, to_start: W) -> (W, bool) {
         match self.planned {
-            Some(planned) => self
-                .search
-                .estimate(id, planned.known, to_goal, to_start),
+            Some(planned) => self.search.estimate(id, planned.known, to_goal, to_start),
             None => self.field.estimate(id, to_goal, to_start),
         }
     }

@@ -147,11 +147,7 @@ impl<W: Word> Guided<W> {
     }
 
     /// Does what can be done before the next answer is asked for.
-    pub(super) fn prepare(
-        &mut self,
-        problem: &GridProblem,
-        cx: &mut Context<'_, GridProblem>,
-    ) {
+    pub(super) fn prepare(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
         self.learn();
         self.distances.prepare(problem);
         let is_basis = self.basis.is_some_and(|(goal, _)| goal == problem.goal());
