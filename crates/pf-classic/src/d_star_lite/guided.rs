@@ -2,7 +2,7 @@
 
 use super::distances::Distances;
 use pf_core::Context;
-use pf_grid::{Cell, Damage, End, GridProblem, Route, Search, Upkeep, Weights, Word};
+use pf_grid::{Cell, Damage, End, GridCost, GridProblem, Route, Search, Upkeep, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -13,6 +13,8 @@ pub(super) enum Found {
     Nothing,
     /// The budget ran out.
     Cut,
+    /// The search took more than it may.
+    GaveUp,
     /// The word is too narrow for this map.
     TooFar,
 }
@@ -186,11 +188,12 @@ impl<W: Word> Guided<W> {
         }
     }
 
-    /// Answers after these further changes.
+    /// Answers after these further changes; a search from the start may expand so many cells at the most.
     pub(super) fn answer(
         &mut self,
         problem: &GridProblem,
         changed: &[u32],
+        most: u64,
         cx: &mut Context<'_, GridProblem>,
     ) -> (Found, Way) {
         if !fits::<W>(problem) {
@@ -205,7 +208,15 @@ impl<W: Word> Guided<W> {
                 return (Found::Path, Way::Kept);
             }
             if self.knows_more(problem, start) {
-                return (self.look(problem, cx), Way::Searched);
+                let found = cx.at_most(most, |cx| self.look(problem, cx));
+                // What it expanded may still be of use.
+                if found == Found::Cut && !cx.stopped() {
+                    return (Found::GaveUp, Way::Searched);
+                }
+                if found == Found::Cut {
+                    self.closed.clear();
+                }
+                return (found, Way::Searched);
             }
         }
         (self.plan(problem, cx), Way::Afresh)
@@ -323,13 +334,10 @@ impl<W: Word> Guided<W> {
         self.closed = closed;
         self.search = search;
         match end {
-            End::Cut | End::TooFar => {
+            End::Cut => return Found::Cut,
+            End::TooFar => {
                 self.closed.clear();
-                return if end == End::Cut {
-                    Found::Cut
-                } else {
-                    Found::TooFar
-                };
+                return Found::TooFar;
             }
             End::Exhausted => {
                 self.whole = W::MAX;
@@ -345,6 +353,16 @@ impl<W: Word> Guided<W> {
             self.route.extend(id, layout.cell(id), self.whole - g);
         }
         Found::Path
+    }
+
+    /// What the search that gave up was looking for: the cost of the best path, or that there is none, if anybody
+    /// knows.
+    pub(super) fn be_told(&mut self, problem: &GridProblem, best: Option<Option<GridCost>>) {
+        let weigh = |cost| Weights::of(problem.grid()).of_cost(cost);
+        match best.and_then(|best| best.map_or(Some(W::MAX), weigh)) {
+            Some(whole) => self.whole = whole,
+            None => self.closed.clear(),
+        }
     }
 
     /// Whether what is known beats the plain heuristic by enough to pay for looking it up.

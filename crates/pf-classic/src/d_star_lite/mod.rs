@@ -3,6 +3,7 @@
 mod distances;
 mod guided;
 
+use crate::Jps;
 use guided::{Found, Guided, Way};
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
@@ -83,6 +84,10 @@ pub struct DStarLite {
     debt: u64,
     /// The last answer, and to what.
     last: Option<(Stamp, Found)>,
+    /// Answers where searches take long, once there was reason to make its bits.
+    jps: Jps,
+    /// How many searches in a row were given up since the last plan.
+    given_up: u32,
     /// Its path, which needs none of the above while nothing but the robot's place and blocked cells
     /// change.
     last_path: LastPath,
@@ -104,6 +109,16 @@ impl Default for Width {
 /// So many times the expansions of a plan may be spent on answers before the distances are made
 /// right: it takes about as long.
 const DEBT: u64 = 3;
+
+/// Where jump points are at hand, a search is given up that has expanded one of so many cells that a plan does:
+/// they expand fewer yet.
+const PATIENT: u64 = 64;
+/// With less patience than that it is not begun.
+const CURT: u64 = 8;
+/// Their bits are made once answers have expanded one cell in so many of the map's: it takes about as long.
+const BITS: usize = 64;
+/// They are thrown away where more cells than that change at once.
+const MANY: usize = 256;
 
 /// The same for whichever width is in use.
 macro_rules! guided {
@@ -138,6 +153,7 @@ impl DStarLite {
         guided!(&self.width, guided => guided.bytes())
             + self.pending.capacity() * size_of::<u32>()
             + self.last_path.bytes()
+            + self.jps.bytes()
     }
 
     /// Makes the distances anew, such as can be repaired if repairs are to come.
@@ -161,7 +177,7 @@ impl DStarLite {
             }
             self.width.widen();
         };
-        self.effort = cx.stats().expanded - before;
+        (self.effort, self.given_up) = (cx.stats().expanded - before, 0);
         if found != Found::Cut {
             self.known = Some(problem.stamp());
         }
@@ -211,8 +227,14 @@ impl DStarLite {
     fn answer(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
         let before = cx.stats().expanded;
         let changed = &self.pending[self.told..];
+        let most = if self.jps.is_of(problem) {
+            self.forbearance()
+        } else {
+            u64::MAX
+        };
         let (found, way) = loop {
-            let answer = guided!(&mut self.width, guided => guided.answer(problem, changed, cx));
+            let answer =
+                guided!(&mut self.width, guided => guided.answer(problem, changed, most, cx));
             if answer.0 != Found::TooFar {
                 break answer;
             }
@@ -221,20 +243,55 @@ impl DStarLite {
         let expanded = cx.stats().expanded - before;
         if way == Way::Afresh {
             self.forget_changes();
-            self.effort = expanded;
+            (self.effort, self.given_up) = (expanded, 0);
         } else {
+            self.given_up = match found {
+                Found::GaveUp => self.given_up + 1,
+                _ => 0,
+            };
             self.told = self.pending.len();
             self.debt += expanded;
         }
-        cx.note(
-            "replanned",
-            match way {
-                Way::Kept => "kept",
-                Way::Searched => "searched",
-                Way::Afresh => "afresh",
-            },
-        );
+        if found != Found::GaveUp {
+            cx.note(
+                "replanned",
+                match way {
+                    Way::Kept => "kept",
+                    Way::Searched => "searched",
+                    Way::Afresh => "afresh",
+                },
+            );
+        }
         found
+    }
+
+    /// How many cells a search may expand where jump points are at hand: half as many after each that did not find
+    /// its way with those.
+    fn forbearance(&self) -> u64 {
+        (self.effort / PATIENT)
+            .checked_shr(self.given_up)
+            .unwrap_or(0)
+    }
+
+    /// Answers by jump points. A search that gave up learns what it was to find.
+    fn jump(
+        &mut self,
+        problem: &GridProblem,
+        gave_up: bool,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Result<Report<GridProblem>, Unsupported> {
+        cx.note("replanned", "jumped");
+        let report = self.jps.plan(problem, cx)?;
+        let best = match &report.outcome {
+            Outcome::Optimal(best) => Some(Some(best.cost)),
+            Outcome::Infeasible => Some(None),
+            _ => None,
+        };
+        if gave_up {
+            guided!(&mut self.width, guided => guided.be_told(problem, best));
+        }
+        self.last_path.remember(problem, &report);
+        Ok(report)
     }
 
     fn report(
@@ -249,7 +306,9 @@ impl DStarLite {
                 cx.answer(problem, path, Proof::Optimal)
             }
             Found::Nothing => cx.report(Outcome::Infeasible),
-            Found::Cut | Found::TooFar => cx.report(Outcome::Unknown { attempt: None }),
+            Found::Cut | Found::TooFar | Found::GaveUp => {
+                cx.report(Outcome::Unknown { attempt: None })
+            }
         };
         if !self.params.eager {
             self.last_path.remember(problem, &report);
@@ -319,6 +378,7 @@ impl Replanner<GridProblem> for DStarLite {
             return self.plan(problem, cx);
         };
         let layout = problem.grid().layout();
+        let before = self.pending.len();
         for change in changes {
             match change {
                 GridChange::Blocked(cells)
@@ -331,6 +391,11 @@ impl Replanner<GridProblem> for DStarLite {
             }
         }
         self.known = Some(problem.stamp());
+        if self.pending.len() - before > MANY {
+            self.jps = Jps::default();
+        } else {
+            self.jps.follow(revision);
+        }
         if self.pending.len() > layout.len() {
             // More than there is to repair: only a new plan makes the distances right.
             self.pending.clear();
@@ -362,8 +427,14 @@ impl Replanner<GridProblem> for DStarLite {
                 cx.note("replanned", "kept");
                 found
             }
+            _ if self.jps.is_of(problem) && self.forbearance() < CURT => {
+                return self.jump(problem, false, cx);
+            }
             _ => self.answer(problem, cx),
         };
+        if found == Found::GaveUp {
+            return self.jump(problem, true, cx);
+        }
         self.last = (found != Found::Cut).then_some((problem.stamp(), found));
         Ok(self.report(problem, found, cx))
     }
@@ -375,6 +446,11 @@ impl Replanner<GridProblem> for DStarLite {
             return;
         }
         guided!(&mut self.width, guided => guided.prepare(problem, cx));
+        let grid = problem.grid();
+        let is_due = self.debt as usize > grid.layout().len() / BITS || self.jps.is_in_use();
+        if grid.is_uniform() && is_due {
+            self.jps.look_at(problem);
+        }
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)
             && self.repair(problem, cx).is_none()

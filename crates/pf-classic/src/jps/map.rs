@@ -70,14 +70,16 @@ impl JumpMap {
         for first in (0..layout.len()).step_by(64) {
             #[expect(clippy::cast_possible_truncation, reason = "an id")]
             let first = first as u32;
-            let mut free = grid.free_bits(first);
-            while free != 0 {
-                let id = first + free.trailing_zeros();
-                free &= free - 1;
-                let around = grid.around_id(id);
-                if around != 0xff {
-                    self.set(self.place(&layout, id), self.forced[usize::from(around)]);
-                }
+            // Those that have something blocked beside them.
+            let beside = layout.offsets().into_iter().fold(0, |blocked, offset| {
+                blocked | !grid.free_bits(first.wrapping_add_signed(offset))
+            });
+            let mut turns = grid.free_bits(first) & beside;
+            while turns != 0 {
+                let id = first + turns.trailing_zeros();
+                turns &= turns - 1;
+                let around = usize::from(grid.around_id(id));
+                self.set(self.place(&layout, id), self.forced[around]);
             }
         }
         self.made = Some((grid.stamp(), moves, layout));
