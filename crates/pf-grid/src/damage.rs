@@ -1,6 +1,6 @@
 //! What changed since a distance field was made, and what that does to its distances.
 
-use crate::{Apart, Grid, GridProblem, Moves, Weights, Word, window::Window};
+use crate::{Apart, Cell, Grid, GridProblem, Moves, Weights, Word, window::Window};
 
 /// The changes since distances to a goal were known, boiled down to what bounds the distances now.
 ///
@@ -82,12 +82,13 @@ impl<W: Word> Damage<W> {
         self.openings.clear();
     }
 
-    /// Takes note of changed cells. `before` says of a place, its column, row and id, what the
+    /// Takes note of changed cells, of distances to `goal`. `before` says of a place, its column, row and id, what the
     /// heuristic says and what was left before anything changed, or a bound of it from below. Says
     /// whether any of them may have made something shorter.
     pub fn add(
         &mut self,
         problem: &GridProblem,
+        goal: Cell,
         changed: &[u32],
         weights: Weights,
         before: impl Fn((u32, u32), u32) -> (W, W),
@@ -116,7 +117,8 @@ impl<W: Word> Damage<W> {
         };
         let roomy = (all.is_empty() || all.has_places) && room <= most;
         if roomy && changed.len() * DENSE >= room {
-            all.enclose(problem, window, weights.apart(problem.moves()), before);
+            let apart = weights.apart(problem.moves());
+            all.enclose(problem.grid(), goal, window, apart, before);
             self.below = self.below.min(all.least);
         } else if roomy {
             all.look(
@@ -325,12 +327,12 @@ impl<W: Word> Openings<W> {
     /// time at a place from which it goes on as before. That takes a fraction of the time.
     fn enclose(
         &mut self,
-        problem: &GridProblem,
+        grid: &Grid,
+        goal: Cell,
         window: Window,
         apart: Apart<W>,
         before: impl Fn((u32, u32), u32) -> (W, W),
     ) {
-        let grid = problem.grid();
         let layout = grid.layout();
         let all = if self.has_places {
             self.window.with(window)
@@ -340,7 +342,7 @@ impl<W: Word> Openings<W> {
         (self.window, self.has_places) = (all, true);
         self.over.clear();
         self.over.resize(all.places(), Self::far());
-        let goal = layout.position(layout.id(problem.goal()));
+        let goal = layout.position(layout.id(goal));
         if all.has(goal) {
             self.over[all.place(goal)] = W::default();
             self.open(W::default(), W::default());
@@ -453,7 +455,7 @@ fn hindered(at: (u32, u32), weights: Weights) -> impl Iterator<Item = (u32, u32)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Cell, Grid, GridChange};
+    use crate::GridChange;
     use pf_core::Problem;
 
     /// A window that grows holds at every place the least over all openings, as a plain reading of
@@ -475,7 +477,7 @@ mod tests {
             problem.apply(&[GridChange::Freed(freed.clone())]).unwrap();
             let layout = *problem.grid().layout();
             let ids: Vec<u32> = freed.iter().map(|&cell| layout.id(cell)).collect();
-            assert!(damage.add(&problem, &ids, weights, was));
+            assert!(damage.add(&problem, goal, &ids, weights, was));
             let near = ids.iter().flat_map(|&id| square(layout.position(id), 1));
             seeds.extend(near.filter(|&at| problem.grid().is_free_id(layout.id_at(at))));
         }

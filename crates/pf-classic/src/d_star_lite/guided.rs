@@ -237,7 +237,8 @@ impl<W: Word> Guided<W> {
         };
         let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
         let distances = &self.distances;
-        let opened = self.damage.add(problem, changed, weights, |at, id| {
+        let goal = problem.goal();
+        let opened = self.damage.add(problem, goal, changed, weights, |at, id| {
             let ((gx, gy), (sx, sy)) = (to_goal(at), to_start(at));
             let heuristic = apart.by(gx, gy);
             (

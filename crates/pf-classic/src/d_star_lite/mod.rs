@@ -227,11 +227,7 @@ impl DStarLite {
     fn answer(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
         let before = cx.stats().expanded;
         let changed = &self.pending[self.told..];
-        let most = if self.jps.is_of(problem) {
-            self.forbearance()
-        } else {
-            u64::MAX
-        };
+        let most = self.forbearance(problem);
         let (found, way) = loop {
             let answer =
                 guided!(&mut self.width, guided => guided.answer(problem, changed, most, cx));
@@ -265,12 +261,14 @@ impl DStarLite {
         found
     }
 
-    /// How many cells a search may expand where jump points are at hand: half as many after each that did not find
+    /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
     /// its way with those.
-    fn forbearance(&self) -> u64 {
-        (self.effort / PATIENT)
-            .checked_shr(self.given_up)
-            .unwrap_or(0)
+    fn forbearance(&self, problem: &GridProblem) -> u64 {
+        if !problem.grid().is_uniform() || !self.jps.is_of(problem) {
+            return u64::MAX;
+        }
+        let most = (self.effort / PATIENT).checked_shr(self.given_up);
+        most.unwrap_or(0)
     }
 
     /// Answers by jump points. A search that gave up learns what it was to find.
@@ -427,9 +425,7 @@ impl Replanner<GridProblem> for DStarLite {
                 cx.note("replanned", "kept");
                 found
             }
-            _ if self.jps.is_of(problem) && self.forbearance() < CURT => {
-                return self.jump(problem, false, cx);
-            }
+            _ if self.forbearance(problem) < CURT => return self.jump(problem, false, cx),
             _ => self.answer(problem, cx),
         };
         if found == Found::GaveUp {

@@ -345,8 +345,9 @@ impl<W: Word> Side<W> {
         let octile = weights.octile::<W>(problem.grid(), problem.moves(), root);
         let field = &self.field;
         let news = &log[self.noted..];
-        self.damage
-            .add(problem, news, weights, |_, id| (octile(id), field.at(id)));
+        self.damage.add(problem, root, news, weights, |_, id| {
+            (octile(id), field.at(id))
+        });
         self.noted = log.len();
     }
 }
