@@ -122,6 +122,7 @@ impl Auto {
         if self.surveyed != Some(grid.stamp()) {
             self.survey = Some(Survey::of(grid, &mut self.jps, problem));
             (self.surveyed, self.changed) = (Some(grid.stamp()), 0);
+            self.known = Some(problem.stamp());
         }
         self.survey.as_ref()
     }
@@ -129,6 +130,47 @@ impl Auto {
     /// Whether jump points serve a problem's grid well.
     pub(crate) fn jumps(&mut self, problem: &GridProblem) -> bool {
         self.survey(problem).is_some_and(|survey| !survey.strewn)
+    }
+
+    /// Whether they are known to, on the grid as it is, so that [`jump`](Self::jump) can begin at once.
+    pub(crate) fn is_set_to_jump(&self, problem: &GridProblem) -> bool {
+        let grid = problem.grid();
+        let serve = |survey: &Survey| !survey.strewn;
+        grid.is_uniform()
+            && self.surveyed == Some(grid.stamp())
+            && self.survey.as_ref().is_some_and(serve)
+            && self.jps.is_of(problem)
+    }
+
+    /// Answers by jump points, and remembers no path.
+    pub(crate) fn jump(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Result<Report<GridProblem>, Unsupported> {
+        self.jps.plan(problem, cx)
+    }
+
+    /// Whether a grid was ever surveyed.
+    pub(crate) fn is_in_use(&self) -> bool {
+        self.survey.is_some()
+    }
+
+    /// Follows changes with what is known of the grid.
+    pub(crate) fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
+        let grid = revision.problem().grid();
+        if let Some(changes) = revision.since(self.known) {
+            let cells = changes.iter().map(|change| match change {
+                GridChange::Blocked(cells) | GridChange::Freed(cells) => cells.len(),
+                _ => 0,
+            });
+            self.changed += cells.sum::<usize>();
+            if self.changed * 100 <= grid.layout().len() {
+                self.surveyed = Some(grid.stamp());
+            }
+        }
+        self.known = Some(revision.problem().stamp());
+        self.jps.follow(revision);
     }
 
     /// Whether to jump, and says why.
@@ -174,19 +216,7 @@ impl Replanner<GridProblem> for Auto {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         let problem = revision.problem();
-        let grid = problem.grid();
-        if let Some(changes) = revision.since(self.known) {
-            let cells = changes.iter().map(|change| match change {
-                GridChange::Blocked(cells) | GridChange::Freed(cells) => cells.len(),
-                _ => 0,
-            });
-            self.changed += cells.sum::<usize>();
-            if self.changed * 100 <= grid.layout().len() {
-                self.surveyed = Some(grid.stamp());
-            }
-        }
-        self.known = Some(problem.stamp());
-        self.jps.follow(revision);
+        self.follow(revision);
         if let Some(report) = self.last.answer(revision, cx) {
             return Ok(report);
         }

@@ -7,7 +7,7 @@ use pf_conformance::{
     seeded,
 };
 use pf_core::{Context, Outcome, Planner, Problem, Replanner, Report};
-use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem};
+use pf_grid::{Advance, Cell, Drive, Grid, GridChange, GridCost, GridProblem};
 use rand::RngExt;
 use std::collections::BTreeMap;
 
@@ -108,6 +108,42 @@ fn d_star_lite_is_exact_after_thirty_thousand_batches() {
         &ways,
         &[("kept", 2000), ("searched", 4000), ("afresh", 2000)],
     );
+}
+
+/// One planner, from map to map, each of them presumed open at first.
+#[test]
+fn d_star_lite_is_exact_on_drives_where_it_jumps() {
+    let mut rng = seeded(34);
+    let mut planner = DStarLite::default();
+    let mut ways = BTreeMap::new();
+    for round in 0..40 {
+        let recipe = Recipe {
+            terrain: false,
+            ..Recipe::any(&mut rng, 40..=90)
+        };
+        let problem = random_problem(&mut rng, &recipe);
+        let mut drive = Drive::new(&problem, 4.0).unwrap();
+        let mut report = planner
+            .plan(drive.known(), &mut Context::seeded(0))
+            .unwrap();
+        loop {
+            let found = proven(drive.known(), &report);
+            let known = drawing(drive.known());
+            assert_eq!(found, oracle(drive.known()), "drive {round}:\n{known}");
+            planner.settle(drive.known(), &mut Context::seeded(0));
+            let Some(best) = report.outcome.solved() else {
+                break;
+            };
+            let Advance::Discovered(changes) = drive.advance(&best.solution) else {
+                break;
+            };
+            let revision = drive.learn(&changes).unwrap();
+            report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            let way = report.note("replanned").unwrap_or_default();
+            *ways.entry(way.to_owned()).or_default() += 1;
+        }
+    }
+    often(&ways, &[("kept", 500), ("jumped", 500)]);
 }
 
 #[test]

@@ -356,6 +356,22 @@ impl<'a, P: Problem> Context<'a, P> {
 
     /// Does work that may take so many more iterations at the most. That it was cut short by this is not
     /// reported; the caller knows.
+    ///
+    /// ```
+    /// # use pf_core::*;
+    /// # #[derive(Clone, Debug)] struct Any;
+    /// # impl Problem for Any {
+    /// #   type State = u8; type Solution = u8; type Cost = f64; type Change = ();
+    /// #   fn judge(&self, _: &u8) -> Result<f64, Violation> { Ok(1.0) }
+    /// #   fn apply(&mut self, _: &[()]) -> Result<(), InvalidProblem> { Ok(()) }
+    /// #   fn stamp(&self) -> Stamp { Stamp::fresh() }
+    /// # }
+    /// let budget = Budget::unlimited().iterations(10);
+    /// let mut cx: Context<'_, Any> = Context::seeded(7).within(budget);
+    /// let count = |cx: &mut Context<'_, Any>| (0..100).take_while(|_| cx.proceed()).count();
+    /// assert_eq!((cx.at_most(4, count), cx.stopped()), (4, false));
+    /// assert_eq!((cx.at_most(9, count), cx.stopped()), (6, true));
+    /// ```
     pub fn at_most<R>(&mut self, iterations: u64, work: impl FnOnce(&mut Self) -> R) -> R {
         let whole = self.budget.iterations;
         let most = self.stats.iterations.saturating_add(iterations);

@@ -1,6 +1,10 @@
 //! What changed since a distance field was made, and what that does to its distances.
 
-use crate::{Apart, Cell, Grid, GridProblem, Moves, Weights, Word, window::Window};
+use crate::{
+    Apart, Cell, GridProblem, Moves, Weights, Word,
+    openings::Openings,
+    window::{Window, square},
+};
 
 /// The changes since distances to a goal were known, boiled down to what bounds the distances now.
 ///
@@ -16,28 +20,6 @@ pub struct Damage<W> {
     /// Less was left nowhere among the changed cells.
     below: W,
     openings: Openings<W>,
-}
-
-/// The places near what became free or cheaper, from which old ways go on.
-#[derive(Clone, Debug)]
-struct Openings<W> {
-    /// The least that was left at any of them.
-    least: W,
-    /// The least of what was left above the heuristic.
-    excess: W,
-    window: Window,
-    /// Whether the window is small enough to be looked at place by place.
-    has_places: bool,
-    /// By place in the window what was left there before.
-    was: Vec<W>,
-    /// The least of what was left at an opening and the way there, as if nothing stood in it.
-    over: Vec<W>,
-    /// The lesser of the two.
-    both: Vec<W>,
-    /// Scratch: a row, a window, and by rows of whole words which places were changed and are free.
-    above: Vec<W>,
-    spare: Vec<W>,
-    freed: Vec<u64>,
 }
 
 /// A window of that many places is looked at place by place however few changed cells there are,
@@ -58,23 +40,6 @@ impl<W: Word> Default for Damage<W> {
     }
 }
 
-impl<W: Word> Default for Openings<W> {
-    fn default() -> Self {
-        Self {
-            least: W::MAX,
-            excess: W::MAX,
-            window: Window::default(),
-            has_places: false,
-            was: Vec::new(),
-            over: Vec::new(),
-            both: Vec::new(),
-            above: Vec::new(),
-            spare: Vec::new(),
-            freed: Vec::new(),
-        }
-    }
-}
-
 impl<W: Word> Damage<W> {
     /// No damage.
     pub fn clear(&mut self) {
@@ -82,9 +47,9 @@ impl<W: Word> Damage<W> {
         self.openings.clear();
     }
 
-    /// Takes note of changed cells, of distances to `goal`. `before` says of a place, its column, row and id, what the
-    /// heuristic says and what was left before anything changed, or a bound of it from below. Says
-    /// whether any of them may have made something shorter.
+    /// Takes note of changed cells. The distances are those to `goal`; `before` says of a place, its column, row and
+    /// id, what the heuristic says and what was left before anything changed, or a bound of it from below. Says
+    /// whether any of the cells may have made something shorter.
     pub fn add(
         &mut self,
         problem: &GridProblem,
@@ -116,18 +81,12 @@ impl<W: Word> Damage<W> {
             all.window.with(window).places()
         };
         let roomy = (all.is_empty() || all.has_places) && room <= most;
+        let apart = weights.apart(problem.moves());
         if roomy && changed.len() * DENSE >= room {
-            let apart = weights.apart(problem.moves());
-            all.enclose(problem.grid(), goal, window, apart, before);
+            all.enclose(grid, goal, window, apart, before);
             self.below = self.below.min(all.least);
         } else if roomy {
-            all.look(
-                problem,
-                changed,
-                window,
-                weights.apart(problem.moves()),
-                before,
-            );
+            all.look(grid, changed, window, apart, before);
             let (opening, below) = (all.window, &mut self.below);
             for &id in changed {
                 for place in hindered(layout.position(id), weights) {
@@ -198,10 +157,7 @@ impl<W: Word> Damage<W> {
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        let all = &self.openings;
-        let places = [&all.was, &all.over, &all.both, &all.above, &all.spare];
-        let places: usize = places.into_iter().map(Vec::capacity).sum();
-        places * size_of::<W>() + all.freed.capacity() * size_of::<u64>()
+        self.openings.bytes()
     }
 }
 
@@ -231,221 +187,6 @@ impl<W: Word> Bound<'_, W> {
     }
 }
 
-impl<W: Word> Openings<W> {
-    fn clear(&mut self) {
-        self.least = W::MAX;
-        self.excess = W::MAX;
-        self.has_places = false;
-        self.over.clear();
-    }
-
-    /// Whether there are none.
-    #[inline]
-    fn is_empty(&self) -> bool {
-        self.least == W::MAX
-    }
-
-    fn open(&mut self, heuristic: W, left: W) {
-        if left < W::MAX {
-            self.least = self.least.min(left);
-            self.excess = self.excess.min(left.max(heuristic) - heuristic);
-        }
-    }
-
-    /// Everything may have changed.
-    fn give_up(&mut self, window: Window) {
-        self.forget_places(window);
-        self.least = W::default();
-        self.excess = W::default();
-    }
-
-    fn forget_places(&mut self, window: Window) {
-        // Where the old window was no longer matters if there was none.
-        self.window = if self.has_places || !self.is_empty() {
-            self.window.with(window)
-        } else {
-            window
-        };
-        self.has_places = false;
-    }
-
-    /// Looks at a window with these changes in it, place by place, row by row as it lies in memory.
-    fn look(
-        &mut self,
-        problem: &GridProblem,
-        changed: &[u32],
-        window: Window,
-        apart: Apart<W>,
-        before: impl Fn((u32, u32), u32) -> (W, W),
-    ) {
-        let grid = problem.grid();
-        let layout = grid.layout();
-        let old = self.has_places.then_some(self.window);
-        let all = old.map_or(window, |old| old.with(window));
-        std::mem::swap(&mut self.over, &mut self.spare);
-        self.over.clear();
-        self.over.resize(all.places(), Self::far());
-        if let Some(old) = old {
-            for (y, row) in (old.rows[0]..).zip(self.spare.chunks_exact(old.width())) {
-                let at = all.place((old.columns[0], y));
-                self.over[at..at + old.width()].copy_from_slice(row);
-            }
-        }
-        self.window = all;
-        self.has_places = true;
-        let mut heuristics = std::mem::take(&mut self.both);
-        for places in [&mut self.was, &mut heuristics] {
-            places.clear();
-            places.resize(all.places(), W::default());
-        }
-        let width = all.width();
-        let rows = self.was.chunks_exact_mut(width);
-        for (y, (was, heuristics)) in
-            (all.rows[0]..).zip(rows.zip(heuristics.chunks_exact_mut(width)))
-        {
-            let first = layout.id_at((all.columns[0], y));
-            let places = (first..)
-                .zip(all.columns[0]..)
-                .zip(was.iter_mut().zip(heuristics));
-            for ((id, x), (left, heuristic)) in places {
-                (*heuristic, *left) = before((x, y), id);
-            }
-        }
-        self.open_beside(grid, changed, &heuristics);
-        self.spread(apart.by(1, 0), apart.by(1, 1));
-        heuristics.clear();
-        heuristics.extend(
-            self.was
-                .iter()
-                .zip(&self.over)
-                .map(|(&was, &over)| was.min(over)),
-        );
-        self.both = heuristics;
-    }
-
-    /// The same, from the edge of the window alone, as if nothing stood within: a way comes out of it for the last
-    /// time at a place from which it goes on as before. That takes a fraction of the time.
-    fn enclose(
-        &mut self,
-        grid: &Grid,
-        goal: Cell,
-        window: Window,
-        apart: Apart<W>,
-        before: impl Fn((u32, u32), u32) -> (W, W),
-    ) {
-        let layout = grid.layout();
-        let all = if self.has_places {
-            self.window.with(window)
-        } else {
-            window
-        };
-        (self.window, self.has_places) = (all, true);
-        self.over.clear();
-        self.over.resize(all.places(), Self::far());
-        let goal = layout.position(layout.id(goal));
-        if all.has(goal) {
-            self.over[all.place(goal)] = W::default();
-            self.open(W::default(), W::default());
-        }
-        for place in all.edge() {
-            let id = layout.id_at(place);
-            if grid.is_free_id(id) {
-                let (heuristic, left) = before(place, id);
-                let over = &mut self.over[all.place(place)];
-                *over = left.min(*over);
-                self.open(heuristic, left);
-            }
-        }
-        self.spread(apart.by(1, 0), apart.by(1, 1));
-        self.both.clear();
-        self.both.extend_from_slice(&self.over);
-    }
-
-    /// Opens what is free among the changed cells, and beside them: a freed cell also allows diagonal steps that
-    /// pass it, between its neighbours.
-    fn open_beside(&mut self, grid: &Grid, changed: &[u32], heuristics: &[W]) {
-        let (layout, all) = (grid.layout(), self.window);
-        let (width, words) = (all.width(), all.width().div_ceil(64));
-        let mut freed = std::mem::take(&mut self.freed);
-        freed.clear();
-        // A row above and a row below, too.
-        freed.resize((all.places() / width + 2) * words, 0);
-        for &id in changed.iter().filter(|&&id| grid.is_free_id(id)) {
-            let place = all.place(layout.position(id));
-            let (row, column) = (place / width + 1, place % width);
-            freed[row * words + column / 64] |= 1 << (column % 64);
-        }
-        for (row, y) in (all.rows[0]..=all.rows[1]).enumerate() {
-            let rows =
-                |word: usize| (row..row + 3).fold(0, |bits, row| bits | freed[row * words + word]);
-            let mut before = 0;
-            let mut here = rows(0);
-            for (word, x) in (0..words).zip((all.columns[0]..).step_by(64)) {
-                let after = if word + 1 < words { rows(word + 1) } else { 0 };
-                let beside = here | here << 1 | before >> 63 | here >> 1 | after << 63;
-                let mut near = beside & grid.free_bits(layout.id_at((x, y)));
-                while near != 0 {
-                    let place = row * width + word * 64 + near.trailing_zeros() as usize;
-                    near &= near - 1;
-                    let left = self.was[place];
-                    if left < self.over[place] {
-                        self.over[place] = left;
-                        self.open(heuristics[place], left);
-                    }
-                }
-                (before, here) = (here, after);
-            }
-        }
-        self.freed = freed;
-    }
-
-    /// More than any path weighs, and yet far enough from overflow.
-    fn far() -> W {
-        W::LIMIT + W::LIMIT
-    }
-
-    /// To every place the least of every other and the way from there, in two passes.
-    ///
-    /// Source: Borgefors, *Distance transformations in digital images*, 1986.
-    fn spread(&mut self, straight: W, diagonal: W) {
-        let width = self.window.width();
-        let far = Self::far();
-        for pass in 0..2 {
-            // The second pass is the first one in a window turned half round.
-            let above = &mut self.above;
-            above.clear();
-            above.resize(width + 2, far);
-            let rows = self.over.chunks_exact_mut(width);
-            let mut lower = |row: &mut [W]| {
-                for (value, near) in row.iter_mut().zip(above.windows(3)) {
-                    let over = (near[1] + straight).min(near[0].min(near[2]) + diagonal);
-                    *value = over.min(*value);
-                }
-                let mut last = far;
-                for value in row.iter_mut() {
-                    last = (*value).min(last + straight);
-                    *value = last;
-                }
-                above[1..=width].copy_from_slice(row);
-            };
-            if pass == 0 {
-                rows.for_each(lower);
-            } else {
-                rows.rev().for_each(|row| {
-                    row.reverse();
-                    lower(row);
-                    row.reverse();
-                });
-            }
-        }
-    }
-}
-
-/// The places that are no further than so many steps from one.
-fn square((x, y): (u32, u32), reach: u32) -> impl Iterator<Item = (u32, u32)> {
-    (y - reach..=y + reach).flat_map(move |y| (x - reach..=x + reach).map(move |x| (x, y)))
-}
-
 /// From where a step may be hindered by a changed cell. A blocked one also hinders diagonal steps that pass it:
 /// without terrain less was left at such a cell than where the step begins, with terrain it may be dear.
 fn hindered(at: (u32, u32), weights: Weights) -> impl Iterator<Item = (u32, u32)> {
@@ -455,8 +196,8 @@ fn hindered(at: (u32, u32), weights: Weights) -> impl Iterator<Item = (u32, u32)
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::GridChange;
-    use pf_core::Problem;
+    use crate::{Grid, GridChange, Search};
+    use pf_core::{Context, Problem};
 
     /// A window that grows holds at every place the least over all openings, as a plain reading of
     /// the definition has it.
@@ -497,5 +238,55 @@ mod tests {
             }
         }
         assert!(inside > 100 && inside < 400);
+    }
+    /// Whatever changes in a window, however densely, and wherever the distances lead to: nothing is further than
+    /// it was said to be at the least, and near the window more is said than the heuristic knows.
+    #[test]
+    fn dense_changes_leave_bounds_from_below() {
+        let free = |cell: Cell| (cell.x * cell.x * 7 + cell.y * 13 + cell.x * cell.y) % 7 > 1;
+        let grid = Grid::new(40, 40, |cell| {
+            u8::from(free(cell) && cell.x != 20 || cell.y == 0)
+        });
+        let problem = GridProblem::new(grid.unwrap(), Cell::new(0, 0), Cell::new(39, 0)).unwrap();
+        let layout = *problem.grid().layout();
+        let mut known_more = 0;
+        for (goal, corner) in [(39, 0), (0, 0), (39, 30)].into_iter().flat_map(|(x, y)| {
+            let corners = [(1, 1), (17, 4), (33, 27), (33, 1)];
+            corners.map(|(left, top)| (Cell::new(x, y), Cell::new(left, top)))
+        }) {
+            let mut problem = problem.clone();
+            let (weights, moves) = (Weights::of(problem.grid()), problem.moves());
+            let octile = weights.octile::<u32>(problem.grid(), moves, goal);
+            let (mut then, mut now) = (Search::default(), Search::default());
+            let mut cx = Context::seeded(0);
+            then.run(&problem, goal, None, |_| 0, &mut cx);
+            let flipped = layout.cells().filter(|&cell| {
+                let (dx, dy) = (cell.x.wrapping_sub(corner.x), cell.y.wrapping_sub(corner.y));
+                dx < 7 && dy < 7 && (dx * 3 + dy * 5) % 4 == 0 && cell != goal && cell.y > 0
+            });
+            let (blocked, freed): (Vec<_>, _) =
+                flipped.partition(|&cell| problem.grid().is_free(cell));
+            let ids = blocked.iter().chain(&freed).map(|&cell| layout.id(cell));
+            let ids: Vec<u32> = ids.collect();
+            let changes = [GridChange::Blocked(blocked), GridChange::Freed(freed)];
+            problem.apply(&changes).unwrap();
+            let left = |search: &Search<u32>, id| search.weight(id).unwrap_or(u32::MAX);
+            let mut damage = Damage::default();
+            let before = |_, id| (octile(id), left(&then, id));
+            assert!(damage.add(&problem, goal, &ids, weights, before));
+            now.run(&problem, goal, None, |_| 0, &mut cx);
+            let bound = damage.bound(weights, moves);
+            for id in layout.cells().map(|cell| layout.id(cell)) {
+                let least = bound.at(layout.position(id), || before((0, 0), id));
+                let after = left(&now, id);
+                assert!(least <= after, "{} to {goal}", layout.cell(id));
+                if damage.is_below(least) {
+                    assert_eq!(left(&then, id), after, "{} to {goal}", layout.cell(id));
+                }
+                let is_within = damage.openings.window.has(layout.position(id));
+                known_more += u32::from(is_within && least > octile(id));
+            }
+        }
+        assert!(known_more > 300, "{known_more}");
     }
 }

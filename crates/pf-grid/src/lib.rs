@@ -17,6 +17,8 @@ mod inflated;
 mod last_path;
 mod layout;
 mod moves;
+mod onward;
+mod openings;
 mod problem;
 mod remnant;
 mod route;

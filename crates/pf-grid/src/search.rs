@@ -1,8 +1,8 @@
 //! The best-first search that Dijkstra, A* and their kin share.
 
 use crate::{
-    Buckets, Cell, Grid, GridProblem, Layout, Moves, Weights, Word,
-    canonical::{Successors, successors},
+    Buckets, Cell, GridProblem, Layout, Weights, Word,
+    onward::{Onward, Pruned, Weighed},
 };
 use pf_core::Context;
 
@@ -222,22 +222,14 @@ impl<W: Word> Search<W> {
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let (grid, moves) = (problem.grid(), problem.moves());
-        let (layout, weights) = (grid.layout(), Weights::of(grid));
+        let layout = grid.layout();
         let aim = (aim, beyond);
-        if weights.is_uniform() {
-            let pruned = Pruned {
-                grid,
-                moves,
-                successors: successors(moves),
-            };
-            self.search(layout, aim, heuristic, arrive, &pruned, cx)
+        if grid.is_uniform() {
+            let onward = Pruned::new(grid, moves);
+            self.search(layout, aim, heuristic, arrive, &onward, cx)
         } else {
-            let weighed = Weighed {
-                grid,
-                moves,
-                weights,
-            };
-            self.search(layout, aim, heuristic, arrive, &weighed, cx)
+            let onward = Weighed::new(grid, moves);
+            self.search(layout, aim, heuristic, arrive, &onward, cx)
         }
     }
 
@@ -260,7 +252,7 @@ impl<W: Word> Search<W> {
         self.generation += 1;
     }
 
-    fn search<S: Steps<W>>(
+    fn search<S: Onward<W>>(
         &mut self,
         layout: &Layout,
         (aim, mut beyond): (Aim<W>, bool),
@@ -471,64 +463,5 @@ impl<W: Word> Search<W> {
         self.records.capacity() * size_of::<Record<W::Kept>>()
             + self.open.bytes()
             + self.later.capacity() * size_of::<(u32, W)>()
-    }
-}
-
-/// Where the search goes on from a cell, and at what weight.
-trait Steps<W> {
-    /// Whether the successors depend on the arrivals.
-    const CANONICAL: bool;
-    fn onward(&self, id: u32, arrivals: u8) -> u8;
-    fn weight(&self, from: u32, to: u32, k: u32) -> W;
-}
-
-/// On a grid without terrain: canonical successors, two weights.
-struct Pruned<'g> {
-    grid: &'g Grid,
-    moves: Moves,
-    successors: &'static Successors,
-}
-
-impl<W: Word> Steps<W> for Pruned<'_> {
-    const CANONICAL: bool = true;
-
-    #[inline]
-    fn onward(&self, id: u32, mut arrivals: u8) -> u8 {
-        let around = self.grid.around_id(id);
-        if arrivals == 0 {
-            return self.moves.legal(around);
-        }
-        let mut onward = 0;
-        while arrivals != 0 {
-            onward |= self.successors[arrivals.trailing_zeros() as usize][usize::from(around)];
-            arrivals &= arrivals - 1;
-        }
-        onward
-    }
-
-    #[inline]
-    fn weight(&self, _: u32, _: u32, k: u32) -> W {
-        if k < 4 { W::STRAIGHT } else { W::DIAGONAL }
-    }
-}
-
-/// On a grid with terrain: all legal moves, each at the sum of the two cells' costs.
-struct Weighed<'g> {
-    grid: &'g Grid,
-    moves: Moves,
-    weights: Weights,
-}
-
-impl<W: Word> Steps<W> for Weighed<'_> {
-    const CANONICAL: bool = false;
-
-    #[inline]
-    fn onward(&self, id: u32, _: u8) -> u8 {
-        self.moves.legal(self.grid.around_id(id))
-    }
-
-    #[inline]
-    fn weight(&self, from: u32, to: u32, k: u32) -> W {
-        self.weights.step(self.grid, from, to, k)
     }
 }

@@ -69,3 +69,8 @@ impl Window {
         along(cell.x, self.columns).max(along(cell.y, self.rows)) as usize
     }
 }
+
+/// The places that are no further than so many steps from one.
+pub(crate) fn square((x, y): (u32, u32), reach: u32) -> impl Iterator<Item = (u32, u32)> {
+    (y - reach..=y + reach).flat_map(move |y| (x - reach..=x + reach).map(move |x| (x, y)))
+}

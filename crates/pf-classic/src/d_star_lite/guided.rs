@@ -420,7 +420,7 @@ impl<W: Word> Guided<W> {
     /// Keeps what the last search found out.
     fn learn(&mut self) {
         if !self.closed.is_empty() && self.learnt.is_empty() {
-            self.learnt.resize(self.search.len(), W::default());
+            self.learnt = vec![W::default(); self.search.len()];
         }
         for id in self.closed.drain(..) {
             let Some(g) = self.search.weight(id) else {

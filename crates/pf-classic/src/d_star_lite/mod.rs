@@ -3,7 +3,7 @@
 mod distances;
 mod guided;
 
-use crate::Jps;
+use crate::Auto;
 use guided::{Found, Guided, Way};
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
@@ -84,9 +84,11 @@ pub struct DStarLite {
     debt: u64,
     /// The last answer, and to what.
     last: Option<(Stamp, Found)>,
-    /// Answers where searches take long, once there was reason to make its bits.
-    jps: Jps,
-    /// How many searches in a row were given up since the last plan.
+    /// Answers by jump points where searches take long, once there was reason to make their bits.
+    auto: Auto,
+    /// How many cells a jump expands; 0 as long as none was made since the last plan.
+    jump: u64,
+    /// How many more searches were given up since then than were not.
     given_up: u32,
     /// Its path, which needs none of the above while nothing but the robot's place and blocked cells
     /// change.
@@ -112,12 +114,12 @@ const DEBT: u64 = 3;
 
 /// Where jump points are at hand, a search is given up that has expanded one of so many cells that a plan does:
 /// they expand fewer yet.
-const PATIENT: u64 = 64;
+const PATIENT: u64 = 16;
 /// With less patience than that it is not begun.
 const CURT: u64 = 8;
 /// Their bits are made once answers have expanded one cell in so many of the map's: it takes about as long.
-const BITS: usize = 64;
-/// They are thrown away where more cells than that change at once.
+const BITS: u64 = 64;
+/// They are made anew where more cells than that change at once.
 const MANY: usize = 256;
 
 /// The same for whichever width is in use.
@@ -153,7 +155,7 @@ impl DStarLite {
         guided!(&self.width, guided => guided.bytes())
             + self.pending.capacity() * size_of::<u32>()
             + self.last_path.bytes()
-            + self.jps.bytes()
+            + self.auto.bytes()
     }
 
     /// Makes the distances anew, such as can be repaired if repairs are to come.
@@ -177,7 +179,7 @@ impl DStarLite {
             }
             self.width.widen();
         };
-        (self.effort, self.given_up) = (cx.stats().expanded - before, 0);
+        self.effort = cx.stats().expanded - before;
         if found != Found::Cut {
             self.known = Some(problem.stamp());
         }
@@ -239,11 +241,12 @@ impl DStarLite {
         let expanded = cx.stats().expanded - before;
         if way == Way::Afresh {
             self.forget_changes();
-            (self.effort, self.given_up) = (expanded, 0);
+            self.effort = expanded;
+            (self.jump, self.given_up) = (0, 0);
         } else {
             self.given_up = match found {
                 Found::GaveUp => self.given_up + 1,
-                _ => 0,
+                _ => self.given_up.saturating_sub(1),
             };
             self.told = self.pending.len();
             self.debt += expanded;
@@ -264,11 +267,15 @@ impl DStarLite {
     /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
     /// its way with those.
     fn forbearance(&self, problem: &GridProblem) -> u64 {
-        if !problem.grid().is_uniform() || !self.jps.is_of(problem) {
+        if !self.auto.is_set_to_jump(problem) {
             return u64::MAX;
         }
-        let most = (self.effort / PATIENT).checked_shr(self.given_up);
-        most.unwrap_or(0)
+        let most = if self.jump > 0 {
+            self.jump
+        } else {
+            self.effort / PATIENT
+        };
+        most.checked_shr(self.given_up).unwrap_or(0)
     }
 
     /// Answers by jump points. A search that gave up learns what it was to find.
@@ -279,12 +286,20 @@ impl DStarLite {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         cx.note("replanned", "jumped");
-        let report = self.jps.plan(problem, cx)?;
+        let before = cx.stats().expanded;
+        let report = self.auto.jump(problem, cx)?;
+        let expanded = cx.stats().expanded - before;
+        self.jump = if self.jump == 0 {
+            expanded
+        } else {
+            (3 * self.jump + expanded) / 4
+        };
         let best = match &report.outcome {
             Outcome::Optimal(best) => Some(Some(best.cost)),
             Outcome::Infeasible => Some(None),
             _ => None,
         };
+        self.last = (best == Some(None)).then_some((problem.stamp(), Found::Nothing));
         if gave_up {
             guided!(&mut self.width, guided => guided.be_told(problem, best));
         }
@@ -360,6 +375,7 @@ impl Planner<GridProblem> for DStarLite {
             return Ok(cx.report(Outcome::Infeasible));
         }
         let found = self.refresh(problem, self.params.eager, cx);
+        (self.jump, self.given_up) = (0, 0);
         Ok(self.report(problem, found, cx))
     }
 }
@@ -389,10 +405,8 @@ impl Replanner<GridProblem> for DStarLite {
             }
         }
         self.known = Some(problem.stamp());
-        if self.pending.len() - before > MANY {
-            self.jps = Jps::default();
-        } else {
-            self.jps.follow(revision);
+        if self.auto.is_in_use() && self.pending.len() - before <= MANY {
+            self.auto.follow(revision);
         }
         if self.pending.len() > layout.len() {
             // More than there is to repair: only a new plan makes the distances right.
@@ -442,10 +456,9 @@ impl Replanner<GridProblem> for DStarLite {
             return;
         }
         guided!(&mut self.width, guided => guided.prepare(problem, cx));
-        let grid = problem.grid();
-        let is_due = self.debt as usize > grid.layout().len() / BITS || self.jps.is_in_use();
-        if grid.is_uniform() && is_due {
-            self.jps.look_at(problem);
+        let worth = problem.grid().layout().len() as u64 / BITS;
+        if self.auto.is_in_use() || self.debt > worth {
+            self.auto.jumps(problem);
         }
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)

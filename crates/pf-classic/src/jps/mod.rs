@@ -76,13 +76,7 @@ impl Jps {
         self.map.is_of(problem.grid(), problem.moves())
     }
 
-    /// Whether its bits were ever made.
-    pub(crate) fn is_in_use(&self) -> bool {
-        self.known.is_some()
-    }
-
-    /// Makes its bits, if they are not those of a problem's grid as it is.
-    pub(crate) fn look_at(&mut self, problem: &GridProblem) {
+    fn look_at(&mut self, problem: &GridProblem) {
         if !self.is_of(problem) {
             self.map.make(problem.grid(), problem.moves());
         }
