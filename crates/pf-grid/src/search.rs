@@ -414,11 +414,12 @@ impl<W: Word> Search<W> {
         if whole == W::MAX {
             return (if reached { g } else { W::MAX }, true);
         }
-        // Every cell over which a path was shorter than the whole was expanded at its least weight. No branches:
-        // among many cells they are hard to guess.
-        let exact = reached & record.closed & (g <= whole) & (g.min(whole) + to_goal <= whole);
+        // Every cell over which a path was shorter than the whole was expanded at its least weight.
+        if reached && record.closed && g + to_goal <= whole {
+            return (g, true);
+        }
         let over = whole.max(to_goal) - to_goal;
-        (if exact { g } else { to_start.max(over) }, exact)
+        (to_start.max(over), false)
     }
 
     /// The neighbour over which an id is `left` from the last search's start, by a step that is

@@ -1,5 +1,4 @@
 //! A search that goes on where it stopped.
-#![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
 use pf_core::{Budget, Context};
 use pf_grid::{Cell, End, Grid, GridProblem, Search, Weights, Word};

@@ -1,8 +1,8 @@
 //! Answers from what is known of the distances, in one word width.
 
 use super::distances::Distances;
-use pf_core::Context;
-use pf_grid::{Cell, Damage, End, GridCost, GridProblem, Route, Search, Upkeep, Weights, Word};
+use pf_core::{Context, Outcome};
+use pf_grid::{Cell, Damage, End, GridProblem, Route, Search, Upkeep, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -356,11 +356,14 @@ impl<W: Word> Guided<W> {
         Found::Path
     }
 
-    /// What the search that gave up was looking for: the cost of the best path, or that there is none, if anybody
-    /// knows.
-    pub(super) fn be_told(&mut self, problem: &GridProblem, best: Option<Option<GridCost>>) {
-        let weigh = |cost| Weights::of(problem.grid()).of_cost(cost);
-        match best.and_then(|best| best.map_or(Some(W::MAX), weigh)) {
+    /// What the search that gave up was looking for, somebody else has found, or not.
+    pub(super) fn be_told(&mut self, problem: &GridProblem, found: &Outcome<GridProblem>) {
+        let whole = match found {
+            Outcome::Optimal(best) => Weights::of(problem.grid()).of_cost(best.cost),
+            Outcome::Infeasible => Some(W::MAX),
+            _ => None,
+        };
+        match whole {
             Some(whole) => self.whole = whole,
             None => self.closed.clear(),
         }

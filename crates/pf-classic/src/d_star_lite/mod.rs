@@ -42,9 +42,10 @@ params!(DStarLiteParams {
 /// Replans with the distances to the goal, repaired where a change matters to the robot.
 ///
 /// The distances are rooted at the goal, so a robot that moves and sees changes near itself costs
-/// little. An answer comes in one of four ways; the note `replanned` says which: `kept`, where the
+/// little. An answer comes in one of five ways; the note `replanned` says which: `kept`, where the
 /// last path is still best; `searched`, by a search from the robot that ends where distances are
-/// known; `repaired`, from repaired distances; `afresh`, where nothing of use is known, as for a
+/// known; `jumped`, by jump points where such searches take long, as on a map of which little is
+/// known yet; `repaired`, from repaired distances; `afresh`, where nothing of use is known, as for a
 /// moved goal. One iteration is one expansion.
 ///
 /// ```
@@ -294,14 +295,10 @@ impl DStarLite {
         } else {
             (3 * self.jump + expanded) / 4
         };
-        let best = match &report.outcome {
-            Outcome::Optimal(best) => Some(Some(best.cost)),
-            Outcome::Infeasible => Some(None),
-            _ => None,
-        };
-        self.last = (best == Some(None)).then_some((problem.stamp(), Found::Nothing));
+        let is_proof = matches!(report.outcome, Outcome::Infeasible);
+        self.last = is_proof.then_some((problem.stamp(), Found::Nothing));
         if gave_up {
-            guided!(&mut self.width, guided => guided.be_told(problem, best));
+            guided!(&mut self.width, guided => guided.be_told(problem, &report.outcome));
         }
         self.last_path.remember(problem, &report);
         Ok(report)
