@@ -148,7 +148,7 @@ impl Auto {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        self.jps.plan(problem, cx)
+        self.jps.answer(problem, true, cx)
     }
 
     /// Whether a grid was ever surveyed.
@@ -198,9 +198,21 @@ impl Planner<GridProblem> for Auto {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
+        self.answer(problem, false, cx)
+    }
+}
+
+impl Auto {
+    /// Answers, and learns for answers to come.
+    fn answer(
+        &mut self,
+        problem: &GridProblem,
+        learns: bool,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Result<Report<GridProblem>, Unsupported> {
         self.known = Some(problem.stamp());
         let report = if self.choose(problem, cx) {
-            self.jps.plan(problem, cx)
+            self.jps.answer(problem, learns, cx)
         } else {
             self.astar.plan(problem, cx)
         }?;
@@ -221,7 +233,7 @@ impl Replanner<GridProblem> for Auto {
             return Ok(report);
         }
         cx.note("replanned", "afresh");
-        self.plan(problem, cx)
+        self.answer(problem, true, cx)
     }
 }
 

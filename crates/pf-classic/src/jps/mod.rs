@@ -79,6 +79,7 @@ impl Jps {
     fn look_at(&mut self, problem: &GridProblem) {
         if !self.is_of(problem) {
             self.map.make(problem.grid(), problem.moves());
+            self.search.forget();
         }
         self.known = Some(problem.stamp());
     }
@@ -92,6 +93,9 @@ impl Jps {
                 _ => &[],
             });
             self.map.follow(problem.grid(), cells.copied());
+            if changes.iter().any(|it| matches!(it, GridChange::Freed(_))) {
+                self.search.forget();
+            }
             self.known = Some(problem.stamp());
         }
     }
@@ -117,6 +121,18 @@ impl Planner<GridProblem> for Jps {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
+        self.answer(problem, false, cx)
+    }
+}
+
+impl Jps {
+    /// Answers, and learns for answers to come.
+    pub(crate) fn answer(
+        &mut self,
+        problem: &GridProblem,
+        learns: bool,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Result<Report<GridProblem>, Unsupported> {
         let grid = problem.grid();
         if !grid.is_uniform() {
             let reason = "it needs cells that all cost the same";
@@ -129,7 +145,7 @@ impl Planner<GridProblem> for Jps {
         let goal = self.map.mark(problem.goal());
         let found = self
             .search
-            .find(problem, &Scans::of(problem, &self.map), cx);
+            .find(problem, &Scans::of(problem, &self.map), learns, cx);
         self.map.restore(goal);
         Ok(report(problem, found, cx))
     }
@@ -155,6 +171,6 @@ impl Replanner<GridProblem> for Jps {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.follow(revision);
-        self.plan(revision.problem(), cx)
+        self.answer(revision.problem(), true, cx)
     }
 }

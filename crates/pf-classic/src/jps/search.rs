@@ -32,6 +32,38 @@ pub(super) struct JumpSearch<W: Copy> {
     layout: Option<Layout>,
     /// Something lay beyond what the word orders.
     beyond: bool,
+    /// What the last search expanded, if it is to learn from it.
+    expanded: Vec<u32>,
+    learned: Learned<W>,
+}
+
+/// What searches have found out about jump points: from there no less is left to a goal. No memory before the first.
+///
+/// Source: Koenig and Likhachev, *Adaptive A\**, 2005.
+#[derive(Clone, Debug, Default)]
+struct Learned<W> {
+    goal: u32,
+    /// By id, if anything is known.
+    least: Vec<W>,
+    /// The ids of which something is known.
+    ids: Vec<u32>,
+}
+
+impl<W: Word> Learned<W> {
+    #[inline]
+    fn at(&self, id: u32) -> W {
+        self.least.get(id as usize).copied().unwrap_or_default()
+    }
+
+    fn forget(&mut self) {
+        for id in self.ids.drain(..) {
+            self.least[id as usize] = W::default();
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        self.least.capacity() * size_of::<W>() + self.ids.capacity() * size_of::<u32>()
+    }
 }
 
 /// A ring of more buckets costs more than the order within a bucket is worth.
@@ -48,6 +80,7 @@ impl<W: Word> JumpSearch<W> {
         &mut self,
         problem: &GridProblem,
         jumps: &impl Jumps,
+        learns: bool,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let grid = problem.grid();
@@ -57,7 +90,11 @@ impl<W: Word> JumpSearch<W> {
         }
         let layout = *grid.layout();
         self.begin(&layout);
-        let start = layout.id(problem.start());
+        let (start, goal) = (layout.id(problem.start()), layout.id(problem.goal()));
+        if self.learned.goal != goal {
+            self.learned.forget();
+            self.learned.goal = goal;
+        }
         let octile = weights.octile::<W>(grid, problem.moves(), problem.goal());
         let first = octile(start);
         // A jump raises the key by twice its weight at most.
@@ -72,7 +109,35 @@ impl<W: Word> JumpSearch<W> {
             ..Record::default()
         };
         self.open.push(first, start, W::default());
-        self.search(problem, jumps, octile, cx)
+        let end = self.search(problem, jumps, octile, learns, cx);
+        if learns && let End::Goal(whole) = end {
+            self.learn(whole);
+        }
+        end
+    }
+
+    /// The best path weighs so much: no way on from what was expanded is shorter than what the way there leaves of it.
+    fn learn(&mut self, whole: W) {
+        let learned = &mut self.learned;
+        if learned.least.is_empty() {
+            learned.least = vec![W::default(); self.records.len()];
+        }
+        for id in self.expanded.drain(..) {
+            let g = self.records[id as usize].g;
+            let least = &mut learned.least[id as usize];
+            let now = whole.max(g) - g;
+            if *least < now {
+                if *least == W::default() {
+                    learned.ids.push(id);
+                }
+                *least = now;
+            }
+        }
+    }
+
+    /// Cells were freed: what was found out holds no more.
+    pub(super) fn forget(&mut self) {
+        self.learned.forget();
     }
 
     fn begin(&mut self, layout: &Layout) {
@@ -81,6 +146,7 @@ impl<W: Word> JumpSearch<W> {
             self.records.clear();
             self.records.resize(layout.len(), Record::default());
             self.generation = 0;
+            self.learned = Learned::default();
         }
         if self.generation == u16::MAX {
             self.records.fill(Record::default());
@@ -94,6 +160,7 @@ impl<W: Word> JumpSearch<W> {
         problem: &GridProblem,
         jumps: &impl Jumps,
         octile: impl Fn(u32) -> W,
+        learns: bool,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let (grid, moves) = (problem.grid(), problem.moves());
@@ -101,6 +168,7 @@ impl<W: Word> JumpSearch<W> {
         let (onward, all_fans) = (successors(moves), fans(moves));
         let mut bound = W::LIMIT;
         self.beyond = false;
+        self.expanded.clear();
         while let Some((id, g)) = self.open.pop(bound) {
             let record = &mut self.records[id as usize];
             if record.closed || { record.g } != g {
@@ -110,6 +178,9 @@ impl<W: Word> JumpSearch<W> {
                 return End::Cut;
             }
             record.closed = true;
+            if learns {
+                self.expanded.push(id);
+            }
             let mut arrivals = record.arrivals;
             cx.expanded(|| grid.layout().cell(id));
             if id == goal {
@@ -210,7 +281,8 @@ impl<W: Word> JumpSearch<W> {
                 closed: false,
             };
         }
-        let key = g + octile(at);
+        // Not consistent any more: what is reached at less is expanded again.
+        let key = g + octile(at).max(self.learned.at(at));
         if key < bound {
             self.open.push(key, at, g);
         } else {
@@ -241,7 +313,10 @@ impl<W: Word> JumpSearch<W> {
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.records.capacity() * size_of::<Record<W>>() + self.open.bytes()
+        self.records.capacity() * size_of::<Record<W>>()
+            + self.open.bytes()
+            + self.expanded.capacity() * size_of::<u32>()
+            + self.learned.bytes()
     }
 }
 
@@ -286,11 +361,13 @@ impl Default for Width {
 }
 
 impl ExactJumps {
-    /// Finds a shortest path between two free cells.
+    /// Finds a shortest path between two free cells. If it `learns`, later searches to the same goal are shorter,
+    /// as long as cells are only blocked; where any is freed, it has to [`forget`](Self::forget).
     pub(super) fn find(
         &mut self,
         problem: &GridProblem,
         jumps: &impl Jumps,
+        learns: bool,
         cx: &mut Context<'_, GridProblem>,
     ) -> Found {
         let layout = *problem.grid().layout();
@@ -300,14 +377,23 @@ impl ExactJumps {
         }
         loop {
             let found = match &mut self.width {
-                Width::Narrow(search) => find(search, problem, jumps, cx),
-                Width::Wide(search) => find(search, problem, jumps, cx),
-                Width::Huge(search) => find(search, problem, jumps, cx),
+                Width::Narrow(search) => find(search, problem, jumps, learns, cx),
+                Width::Wide(search) => find(search, problem, jumps, learns, cx),
+                Width::Huge(search) => find(search, problem, jumps, learns, cx),
             };
             match found {
                 Some(found) => return found,
                 None => self.width.widen(),
             }
+        }
+    }
+
+    /// See [`JumpSearch::forget`].
+    pub(super) fn forget(&mut self) {
+        match &mut self.width {
+            Width::Narrow(search) => search.forget(),
+            Width::Wide(search) => search.forget(),
+            Width::Huge(search) => search.forget(),
         }
     }
 
@@ -326,9 +412,10 @@ fn find<W: Word>(
     search: &mut JumpSearch<W>,
     problem: &GridProblem,
     jumps: &impl Jumps,
+    learns: bool,
     cx: &mut Context<'_, GridProblem>,
 ) -> Option<Found> {
-    match search.run(problem, jumps, cx) {
+    match search.run(problem, jumps, learns, cx) {
         End::Goal(_) => Some(Found::Path(search.path(problem))),
         End::Exhausted => Some(Found::Nothing),
         End::Cut => Some(Found::Cut),
