@@ -1,7 +1,7 @@
 //! Every answer beside the oracle's: thousands of made-up maps, tens of thousands of changes.
 #![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
-use pf_classic::{AStar, Auto, DStarLite, DStarLiteParams, Dijkstra};
+use pf_classic::{AStar, Auto, DStarLite, DStarLiteParams, Dijkstra, Jps};
 use pf_conformance::{
     grid::{Recipe, drawing, oracle, random_batch, random_problem},
     seeded,
@@ -164,6 +164,38 @@ fn d_star_lite_is_exact_when_it_never_gives_up() {
     };
     let ways = play(31, 300, 100, &params);
     often(&ways, &[("repaired", 12_000)]);
+}
+
+/// While a map only closes, they learn; where it opens, or another goal is asked for, that holds no more.
+#[test]
+fn jump_points_are_exact_where_they_have_learned() {
+    let mut rng = seeded(35);
+    for story in 0..600 {
+        let recipe = Recipe {
+            terrain: false,
+            ..Recipe::any(&mut rng, 5..=40)
+        };
+        let mut problem = random_problem(&mut rng, &recipe);
+        let mut planner = Jps::default();
+        planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        for batch in 0..30 {
+            let mut changes = random_batch(&mut rng, &problem, 8);
+            let only_closes = rng.random_bool(0.7);
+            changes.retain(|change| match change {
+                GridChange::Blocked(_) | GridChange::StartMoved(_) => true,
+                GridChange::Freed(_) | GridChange::GoalMoved(_) => !only_closes,
+                _ => false,
+            });
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            assert_eq!(
+                proven(&problem, &report),
+                oracle(&problem),
+                "story {story}, batch {batch}: {changes:?} led to\n{}",
+                drawing(&problem)
+            );
+        }
+    }
 }
 
 /// A robot that follows its path, and learns of walls, mostly.
