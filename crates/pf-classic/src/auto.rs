@@ -1,11 +1,14 @@
 //! A choice between A* and jump point search.
 
-use crate::{AStar, Jps};
+use crate::{
+    AStar, Jps,
+    jps::{changed, opens},
+};
 use pf_core::{
     Claims, Context, InvalidParams, Planner, Problem, Replanner, Report, Revision, Stamp,
     Unsupported, params,
 };
-use pf_grid::{Grid, GridChange, GridProblem, LastPath};
+use pf_grid::{Cell, Grid, GridProblem, LastPath};
 
 /// The choice has no parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -132,14 +135,9 @@ impl Auto {
         self.survey(problem).is_some_and(|survey| !survey.strewn)
     }
 
-    /// Whether they are known to, on the grid as it is, so that [`jump`](Self::jump) can begin at once.
-    pub(crate) fn is_set_to_jump(&self, problem: &GridProblem) -> bool {
-        let grid = problem.grid();
-        let serve = |survey: &Survey| !survey.strewn;
-        grid.is_uniform()
-            && self.surveyed == Some(grid.stamp())
-            && self.survey.as_ref().is_some_and(serve)
-            && self.jps.is_of(problem)
+    /// Whether they served the grid that was surveyed last.
+    pub(crate) fn has_jumps(&self) -> bool {
+        self.survey.as_ref().is_some_and(|survey| !survey.strewn)
     }
 
     /// Answers by jump points, and remembers no path.
@@ -148,6 +146,7 @@ impl Auto {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
+        self.known = Some(problem.stamp());
         self.jps.answer(problem, true, cx)
     }
 
@@ -157,20 +156,34 @@ impl Auto {
     }
 
     /// Follows changes with what is known of the grid.
-    pub(crate) fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
-        let grid = revision.problem().grid();
+    fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
+        let problem = revision.problem();
         if let Some(changes) = revision.since(self.known) {
-            let cells = changes.iter().map(|change| match change {
-                GridChange::Blocked(cells) | GridChange::Freed(cells) => cells.len(),
-                _ => 0,
-            });
-            self.changed += cells.sum::<usize>();
-            if self.changed * 100 <= grid.layout().len() {
-                self.surveyed = Some(grid.stamp());
-            }
+            let cells = changes.iter().flat_map(changed);
+            let opened = changes.iter().any(opens);
+            self.catch_up(problem, cells.copied(), opened);
         }
-        self.known = Some(revision.problem().stamp());
-        self.jps.follow(revision);
+    }
+
+    /// The same, told of the cells that changed since, and whether any of them was freed.
+    pub(crate) fn catch_up(
+        &mut self,
+        problem: &GridProblem,
+        cells: impl Iterator<Item = Cell>,
+        opened: bool,
+    ) {
+        let grid = problem.grid();
+        let count = &mut self.changed;
+        let cells = cells.inspect(|_| *count += 1);
+        if self.jps.is_known(self.known) {
+            self.jps.catch_up(problem, cells, opened);
+        } else {
+            cells.for_each(drop);
+        }
+        if self.changed * 100 <= grid.layout().len() {
+            self.surveyed = Some(grid.stamp());
+        }
+        self.known = Some(problem.stamp());
     }
 
     /// Whether to jump, and says why.
@@ -240,7 +253,6 @@ impl Replanner<GridProblem> for Auto {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use pf_grid::Cell;
 
     #[test]
     fn lone_cells_are_counted_wherever_words_begin() {

@@ -17,7 +17,7 @@ use crate::{
 /// *Adaptive A\**, 2005.
 #[derive(Clone, Debug)]
 pub struct Damage<W> {
-    /// Less was left nowhere among the changed cells.
+    /// Less was left nowhere among the changed cells; where they are dense, nowhere at the edge of their window.
     below: W,
     openings: Openings<W>,
 }
@@ -75,7 +75,7 @@ impl<W: Word> Damage<W> {
         };
         let most = FEW_PLACES + PLACES_EACH * changed.len();
         let all = &mut self.openings;
-        let room = if all.is_empty() {
+        let room = if all.is_empty() && !all.has_places {
             window.places()
         } else {
             all.window.with(window).places()
@@ -239,6 +239,7 @@ mod tests {
         }
         assert!(inside > 100 && inside < 400);
     }
+
     /// Whatever changes in a window, however densely, and wherever the distances lead to: nothing is further than
     /// it was said to be at the least, and near the window more is said than the heuristic knows.
     #[test]

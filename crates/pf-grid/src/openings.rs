@@ -5,7 +5,7 @@ use crate::{Apart, Cell, Grid, Word, window::Window};
 /// The places near what became free or cheaper, from which old ways go on.
 #[derive(Clone, Debug)]
 pub(crate) struct Openings<W> {
-    /// The least that was left at any of them.
+    /// The least that was left at any of them, or at the edge of a window of dense changes.
     pub(crate) least: W,
     /// The least of what was left above the heuristic.
     pub(crate) excess: W,
@@ -16,7 +16,7 @@ pub(crate) struct Openings<W> {
     pub(crate) was: Vec<W>,
     /// The least of what was left at an opening and the way there, as if nothing stood in it.
     over: Vec<W>,
-    /// The lesser of the two.
+    /// The lesser of the two; of a window of dense changes what lies `over` alone.
     pub(crate) both: Vec<W>,
     /// Scratch: a row, a window, and by rows of whole words which places were changed and are free.
     above: Vec<W>,

@@ -127,6 +127,11 @@ impl<W: Word> Search<W> {
         heuristic: impl Fn(u32) -> Option<W>,
         cx: &mut Context<'_, GridProblem>,
     ) -> W {
+        if self.layout != Some(*problem.grid().layout())
+            || self.open.is_empty() && self.later.is_empty()
+        {
+            return known;
+        }
         for (id, g) in self.later.drain(..) {
             let record = &mut self.records[id as usize];
             // Where it arrived nothing was expanded.
@@ -147,8 +152,8 @@ impl<W: Word> Search<W> {
         known
     }
 
-    /// The same from several ids, each with its weight to begin with, for a path that weighs less
-    /// than `bound`: [`End::Exhausted`] means that there is none. Blocked seeds do not count.
+    /// As [`run_until`](Self::run_until), from several ids, each with its weight to begin with, for a path that
+    /// weighs less than `bound`: [`End::Exhausted`] means that there is none. Blocked seeds do not count.
     pub fn run_from(
         &mut self,
         problem: &GridProblem,

@@ -2,7 +2,7 @@
 
 use super::distances::Distances;
 use pf_core::{Context, Outcome};
-use pf_grid::{Cell, Damage, End, GridProblem, Route, Search, Upkeep, Weights, Word};
+use pf_grid::{Cell, Damage, End, GridProblem, Learned, Route, Search, Upkeep, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,11 +49,8 @@ pub(super) struct Guided<W: Word> {
     damage: Damage<W>,
     /// What the changes are counted from: a goal and its weights.
     basis: Option<(Cell, Weights)>,
-    /// By id: a bound from below on what is left to the basis' goal, found out since anything
-    /// last became free or cheaper.
-    learnt: Vec<W>,
-    /// The ids with such a bound.
-    learners: Vec<u32>,
+    /// Found out since anything last became free or cheaper: what is left to the basis' goal.
+    learned: Learned<W>,
     /// What the last search expanded.
     closed: Vec<u32>,
     /// The weight of what it found; [`Word::MAX`] if nothing.
@@ -70,8 +67,7 @@ impl<W: Word> Default for Guided<W> {
             route: Route::default(),
             damage: Damage::default(),
             basis: None,
-            learnt: Vec::new(),
-            learners: Vec::new(),
+            learned: Learned::default(),
             closed: Vec::new(),
             whole: W::MAX,
             tail: Vec::new(),
@@ -86,9 +82,8 @@ impl<W: Word> Guided<W> {
             + self.search.bytes()
             + self.route.bytes()
             + self.damage.bytes()
-            + self.learnt.capacity() * size_of::<W>()
-            + size_of::<u32>()
-                * (self.learners.capacity() + self.closed.capacity() + self.tail.capacity())
+            + self.learned.bytes()
+            + size_of::<u32>() * (self.closed.capacity() + self.tail.capacity())
     }
 
     /// Makes the distances anew and takes the answer from them.
@@ -161,12 +156,7 @@ impl<W: Word> Guided<W> {
     /// Nothing changed yet.
     fn begin(&mut self, problem: &GridProblem) {
         let layout = problem.grid().layout();
-        if self.learnt.len() != layout.len() {
-            // Only a planner that is asked again needs it.
-            self.learnt = Vec::new();
-            self.learners.clear();
-        }
-        self.unlearn();
+        self.learned.forget();
         self.closed.clear();
         self.route.clear(layout);
         self.damage.clear();
@@ -247,13 +237,7 @@ impl<W: Word> Guided<W> {
             )
         });
         if opened {
-            self.unlearn();
-        }
-    }
-
-    fn unlearn(&mut self) {
-        for id in self.learners.drain(..) {
-            self.learnt[id as usize] = W::default();
+            self.learned.forget();
         }
     }
 
@@ -283,7 +267,7 @@ impl<W: Word> Guided<W> {
         let (goal_x, goal_y) = layout.position(layout.id(problem.goal()));
         let (x0, y0) = layout.position(layout.id(self.anchor(problem)));
         let opened = self.damage.bound(weights, problem.moves());
-        let learnt = (!self.learners.is_empty()).then_some(&self.learnt[..]);
+        let learned = (!self.learned.is_empty()).then_some(&self.learned);
         move |id, exactly| {
             let (x, y) = layout.position(id);
             let estimate = || {
@@ -300,7 +284,7 @@ impl<W: Word> Guided<W> {
                 exact && left == least
             };
             (
-                learnt.map_or(least, |learnt| least.max(learnt[id as usize])),
+                learned.map_or(least, |learned| least.max(learned.at(id))),
                 exact,
             )
         }
@@ -372,12 +356,11 @@ impl<W: Word> Guided<W> {
     /// Whether what is known beats the plain heuristic by enough to pay for looking it up.
     fn knows_more(&self, problem: &GridProblem, start: u32) -> bool {
         let grid = problem.grid();
-        let learnt = self.learnt.get(start as usize);
-        if learnt.is_some_and(|&learnt| learnt > W::default()) {
+        if self.learned.at(start) > W::default() {
             return true;
         }
         let Some((_, whole)) = self.distances.settled() else {
-            return !self.learners.is_empty();
+            return !self.learned.is_empty();
         };
         let octile = Weights::of(grid).octile::<W>(grid, problem.moves(), problem.goal());
         self.damage.leaves(octile(start), whole)
@@ -422,26 +405,19 @@ impl<W: Word> Guided<W> {
 
     /// Keeps what the last search found out.
     fn learn(&mut self) {
-        if !self.closed.is_empty() && self.learnt.is_empty() {
-            self.learnt = vec![W::default(); self.search.len()];
+        if self.closed.is_empty() {
+            return;
         }
-        for id in self.closed.drain(..) {
-            let Some(g) = self.search.weight(id) else {
-                continue;
-            };
-            let known = &mut self.learnt[id as usize];
-            let least = if self.whole == W::MAX {
-                W::MAX
-            } else {
-                self.whole.max(g) - g
-            };
-            if *known < least {
-                if *known == W::default() {
-                    self.learners.push(id);
-                }
-                *known = least;
+        let (search, whole) = (&self.search, self.whole);
+        let left = |g| {
+            if whole == W::MAX {
+                return W::MAX;
             }
-        }
+            whole.max(g) - g
+        };
+        let found = self.closed.drain(..);
+        let found = found.filter_map(|id| Some((id, left(search.weight(id)?))));
+        self.learned.learn(search.len(), found);
     }
 
     /// The route, the start first.

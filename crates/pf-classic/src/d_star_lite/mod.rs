@@ -3,7 +3,7 @@
 mod distances;
 mod guided;
 
-use crate::Auto;
+use crate::{Auto, jps::opens};
 use guided::{Found, Guided, Way};
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
@@ -87,9 +87,13 @@ pub struct DStarLite {
     last: Option<(Stamp, Found)>,
     /// Answers by jump points where searches take long, once there was reason to make their bits.
     auto: Auto,
+    /// If it knows the grid: the first of the pending cells of which it does not.
+    behind: Option<usize>,
+    /// Whether any of those was freed.
+    opened: bool,
     /// How many cells a jump expands; 0 as long as none was made since the last plan.
-    jump: u64,
-    /// How many more searches were given up since then than were not.
+    jump_effort: u64,
+    /// How many more searches were given up than were not since the distances were made or repaired.
     given_up: u32,
     /// Its path, which needs none of the above while nothing but the robot's place and blocked cells
     /// change.
@@ -189,9 +193,12 @@ impl DStarLite {
 
     fn forget_changes(&mut self) {
         self.last = None;
+        let is_known = self.behind == Some(self.pending.len());
+        self.behind = is_known.then_some(0);
         self.pending.clear();
         self.told = 0;
         self.debt = 0;
+        self.given_up = 0;
     }
 
     /// How many expansions a repair is worth.
@@ -242,8 +249,7 @@ impl DStarLite {
         let expanded = cx.stats().expanded - before;
         if way == Way::Afresh {
             self.forget_changes();
-            self.effort = expanded;
-            (self.jump, self.given_up) = (0, 0);
+            (self.effort, self.jump_effort) = (expanded, 0);
         } else {
             self.given_up = match found {
                 Found::GaveUp => self.given_up + 1,
@@ -268,15 +274,29 @@ impl DStarLite {
     /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
     /// its way with those.
     fn forbearance(&self, problem: &GridProblem) -> u64 {
-        if !self.auto.is_set_to_jump(problem) {
+        let can_jump = self.behind.is_some() && problem.grid().is_uniform();
+        if !can_jump || !self.auto.has_jumps() {
             return u64::MAX;
         }
-        let most = if self.jump > 0 {
-            self.jump
+        let most = if self.jump_effort > 0 {
+            self.jump_effort
         } else {
             self.effort / PATIENT
         };
         most.checked_shr(self.given_up).unwrap_or(0)
+    }
+
+    /// Tells who jumps of the changes since, if they are few.
+    fn catch_up(&mut self, problem: &GridProblem) {
+        let Some(changed) = self.behind.and_then(|known| self.pending.get(known..)) else {
+            return;
+        };
+        if changed.len() <= MANY {
+            let layout = problem.grid().layout();
+            let cells = changed.iter().map(|&id| layout.cell(id));
+            self.auto.catch_up(problem, cells, self.opened);
+        }
+        (self.behind, self.opened) = (Some(self.pending.len()), false);
     }
 
     /// Answers by jump points. A search that gave up learns what it was to find.
@@ -287,14 +307,16 @@ impl DStarLite {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         cx.note("replanned", "jumped");
+        self.catch_up(problem);
         let before = cx.stats().expanded;
         let report = self.auto.jump(problem, cx)?;
         let expanded = cx.stats().expanded - before;
-        self.jump = if self.jump == 0 {
-            expanded
-        } else {
-            (3 * self.jump + expanded) / 4
-        };
+        if !cx.stopped() {
+            self.jump_effort = match self.jump_effort {
+                0 => expanded,
+                mean => (3 * mean + expanded) / 4,
+            };
+        }
         let is_proof = matches!(report.outcome, Outcome::Infeasible);
         self.last = is_proof.then_some((problem.stamp(), Found::Nothing));
         if gave_up {
@@ -366,13 +388,15 @@ impl Planner<GridProblem> for DStarLite {
     ) -> Result<Report<GridProblem>, Unsupported> {
         if !guided!(&self.width, guided => guided.distances.cover(problem)) {
             self.width = Width::default();
+            self.auto = Auto::default();
         }
+        self.behind = None;
         if is_hopeless(problem) {
             self.known = None;
             return Ok(cx.report(Outcome::Infeasible));
         }
         let found = self.refresh(problem, self.params.eager, cx);
-        (self.jump, self.given_up) = (0, 0);
+        self.jump_effort = 0;
         Ok(self.report(problem, found, cx))
     }
 }
@@ -389,7 +413,6 @@ impl Replanner<GridProblem> for DStarLite {
             return self.plan(problem, cx);
         };
         let layout = problem.grid().layout();
-        let before = self.pending.len();
         for change in changes {
             match change {
                 GridChange::Blocked(cells)
@@ -402,9 +425,7 @@ impl Replanner<GridProblem> for DStarLite {
             }
         }
         self.known = Some(problem.stamp());
-        if self.auto.is_in_use() && self.pending.len() - before <= MANY {
-            self.auto.follow(revision);
-        }
+        self.opened |= changes.iter().any(opens);
         if self.pending.len() > layout.len() {
             // More than there is to repair: only a new plan makes the distances right.
             self.pending.clear();
@@ -446,16 +467,23 @@ impl Replanner<GridProblem> for DStarLite {
         Ok(self.report(problem, found, cx))
     }
 
-    /// Repairs the distances, or makes them anew, if answers have cost more than that since they
-    /// were last right: in iterations, an expansion each.
+    /// Lets a plan go on to what lies near the start, makes the bits of jump points or follows what has changed with
+    /// them, if there is reason to, and repairs the distances, or makes them anew, if answers have cost more than
+    /// that since they were last right: in iterations, an expansion each.
     fn settle(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
         if self.known != Some(problem.stamp()) || !cx.proceed() {
             return;
         }
         guided!(&mut self.width, guided => guided.prepare(problem, cx));
+        if !cx.proceed() {
+            return;
+        }
         let worth = problem.grid().layout().len() as u64 / BITS;
         if self.auto.is_in_use() || self.debt > worth {
+            self.catch_up(problem);
+            // Looks at the grid anew if that did not do.
             self.auto.jumps(problem);
+            (self.behind, self.opened) = (Some(self.pending.len()), false);
         }
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)

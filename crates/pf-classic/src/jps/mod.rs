@@ -14,7 +14,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{Found, GridChange, GridProblem};
+use pf_grid::{Cell, Found, GridChange, GridProblem};
 use search::ExactJumps;
 
 /// Jump point search has no parameters.
@@ -85,19 +85,31 @@ impl Jps {
     }
 
     /// Follows changes with its bits.
-    pub(crate) fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
-        let problem = revision.problem();
+    fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
         if let Some(changes) = revision.since(self.known) {
-            let cells = changes.iter().flat_map(|change| match change {
-                GridChange::Blocked(cells) | GridChange::Freed(cells) => &cells[..],
-                _ => &[],
-            });
-            self.map.follow(problem.grid(), cells.copied());
-            if changes.iter().any(|it| matches!(it, GridChange::Freed(_))) {
-                self.search.forget();
-            }
-            self.known = Some(problem.stamp());
+            let cells = changes.iter().flat_map(changed);
+            let opened = changes.iter().any(opens);
+            self.catch_up(revision.problem(), cells.copied(), opened);
         }
+    }
+
+    /// Whether it knows of all that changed up to there.
+    pub(crate) fn is_known(&self, stamp: Option<Stamp>) -> bool {
+        self.known == stamp
+    }
+
+    /// The same, told of the cells that changed since, and whether any of them was freed.
+    pub(crate) fn catch_up(
+        &mut self,
+        problem: &GridProblem,
+        cells: impl Iterator<Item = Cell>,
+        opened: bool,
+    ) {
+        self.map.follow(problem.grid(), cells);
+        if opened {
+            self.search.forget();
+        }
+        self.known = Some(problem.stamp());
     }
 
     /// Bytes of memory kept between calls.
@@ -149,6 +161,19 @@ impl Jps {
         self.map.restore(goal);
         Ok(report(problem, found, cx))
     }
+}
+
+/// The cells that a change blocks or frees.
+pub(crate) fn changed(change: &GridChange) -> &[Cell] {
+    match change {
+        GridChange::Blocked(cells) | GridChange::Freed(cells) => cells,
+        _ => &[],
+    }
+}
+
+/// Whether a change may make something shorter, on a grid without terrain.
+pub(crate) fn opens(change: &GridChange) -> bool {
+    matches!(change, GridChange::Freed(_))
 }
 
 fn report(

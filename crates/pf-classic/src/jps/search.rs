@@ -2,7 +2,9 @@
 
 use super::jumps::{Jumps, fans};
 use pf_core::Context;
-use pf_grid::{Buckets, Cell, End, Found, GridProblem, Layout, Moves, Weights, Word, successors};
+use pf_grid::{
+    Buckets, Cell, End, Found, GridProblem, Layout, Learned, Moves, Weights, Word, successors,
+};
 
 /// What is known of a jump point.
 #[derive(Clone, Copy, Debug, Default)]
@@ -34,36 +36,9 @@ pub(super) struct JumpSearch<W: Copy> {
     beyond: bool,
     /// What the last search expanded, if it is to learn from it.
     expanded: Vec<u32>,
+    /// What searches to the same goal have found out about jump points.
     learned: Learned<W>,
-}
-
-/// What searches have found out about jump points: from there no less is left to a goal. No memory before the first.
-///
-/// Source: Koenig and Likhachev, *Adaptive A\**, 2005.
-#[derive(Clone, Debug, Default)]
-struct Learned<W> {
     goal: u32,
-    /// By id, if anything is known.
-    least: Vec<W>,
-    /// The ids of which something is known.
-    ids: Vec<u32>,
-}
-
-impl<W: Word> Learned<W> {
-    #[inline]
-    fn at(&self, id: u32) -> W {
-        self.least.get(id as usize).copied().unwrap_or_default()
-    }
-
-    fn forget(&mut self) {
-        for id in self.ids.drain(..) {
-            self.least[id as usize] = W::default();
-        }
-    }
-
-    fn bytes(&self) -> usize {
-        self.least.capacity() * size_of::<W>() + self.ids.capacity() * size_of::<u32>()
-    }
 }
 
 /// A ring of more buckets costs more than the order within a bucket is worth.
@@ -91,9 +66,10 @@ impl<W: Word> JumpSearch<W> {
         let layout = *grid.layout();
         self.begin(&layout);
         let (start, goal) = (layout.id(problem.start()), layout.id(problem.goal()));
-        if self.learned.goal != goal {
+        // Who does not learn answers as if nothing had been asked before.
+        if self.goal != goal || !learns {
             self.learned.forget();
-            self.learned.goal = goal;
+            self.goal = goal;
         }
         let octile = weights.octile::<W>(grid, problem.moves(), problem.goal());
         let first = octile(start);
@@ -110,29 +86,16 @@ impl<W: Word> JumpSearch<W> {
         };
         self.open.push(first, start, W::default());
         let end = self.search(problem, jumps, octile, learns, cx);
-        if learns && let End::Goal(whole) = end {
-            self.learn(whole);
-        }
-        end
-    }
-
-    /// The best path weighs so much: no way on from what was expanded is shorter than what the way there leaves of it.
-    fn learn(&mut self, whole: W) {
-        let learned = &mut self.learned;
-        if learned.least.is_empty() {
-            learned.least = vec![W::default(); self.records.len()];
-        }
-        for id in self.expanded.drain(..) {
-            let g = self.records[id as usize].g;
-            let least = &mut learned.least[id as usize];
-            let now = whole.max(g) - g;
-            if *least < now {
-                if *least == W::default() {
-                    learned.ids.push(id);
-                }
-                *least = now;
+        if let End::Goal(whole) = end {
+            // No way on from what was expanded is shorter than what the way there leaves of the best.
+            let records = &self.records;
+            let left = |id: u32| whole.max(records[id as usize].g) - { records[id as usize].g };
+            let found = self.expanded.drain(..).map(|id| (id, left(id)));
+            if learns {
+                self.learned.learn(records.len(), found);
             }
         }
+        end
     }
 
     /// Cells were freed: what was found out holds no more.
