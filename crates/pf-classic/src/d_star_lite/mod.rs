@@ -274,8 +274,8 @@ impl DStarLite {
     /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
     /// its way with those.
     fn forbearance(&self, problem: &GridProblem) -> u64 {
-        let can_jump = self.behind.is_some() && problem.grid().is_uniform();
-        if !can_jump || !self.auto.has_jumps() {
+        let is_ready = news(&self.pending, self.behind).is_some() && self.auto.has_jumps();
+        if !is_ready || !problem.grid().is_uniform() {
             return u64::MAX;
         }
         let most = if self.jump_effort > 0 {
@@ -286,14 +286,11 @@ impl DStarLite {
         most.checked_shr(self.given_up).unwrap_or(0)
     }
 
-    /// Tells who jumps of the changes since, if they are few.
+    /// Tells who jumps what is new.
     fn catch_up(&mut self, problem: &GridProblem) {
-        let Some(changed) = self.behind.and_then(|known| self.pending.get(known..)) else {
-            return;
-        };
-        if changed.len() <= MANY {
+        if let Some(news) = news(&self.pending, self.behind) {
             let layout = problem.grid().layout();
-            let cells = changed.iter().map(|&id| layout.cell(id));
+            let cells = news.iter().map(|&id| layout.cell(id));
             self.auto.catch_up(problem, cells, self.opened);
         }
         (self.behind, self.opened) = (Some(self.pending.len()), false);
@@ -360,6 +357,12 @@ impl Width {
             Self::Huge(Guided::default())
         };
     }
+}
+
+/// Of the cells that changed those that who jumps does not know of yet, if the rest is known, and they are few.
+fn news(pending: &[u32], known: Option<usize>) -> Option<&[u32]> {
+    let news = pending.get(known?..)?;
+    (news.len() <= MANY).then_some(news)
 }
 
 /// Whether no search is needed to see that there is no path.
