@@ -409,7 +409,8 @@ impl<W: Word> Search<W> {
     /// `false`. [`Word::MAX`] if it is out of reach.
     ///
     /// `to_start` and `to_goal` are the heuristic's values for the two. It is a consistent heuristic
-    /// itself. A path over a cell whose distance is not known is no shorter than `whole`.
+    /// itself. A path over a cell whose distance is not known is no shorter than `whole`, which of a search that
+    /// [went on](Self::go_on) is how far it came.
     #[inline]
     #[must_use]
     pub fn estimate(&self, id: u32, whole: W, to_start: W, to_goal: W) -> (W, bool) {
