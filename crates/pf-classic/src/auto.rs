@@ -1,9 +1,6 @@
 //! A choice between A* and jump point search.
 
-use crate::{
-    AStar, Jps,
-    jps::{changed, opens},
-};
+use crate::{AStar, Jps, jps::flipped};
 use pf_core::{
     Claims, Context, InvalidParams, Planner, Problem, Replanner, Report, Revision, Stamp,
     Unsupported, params,
@@ -157,11 +154,9 @@ impl Auto {
 
     /// Follows changes with what is known of the grid.
     fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
-        let problem = revision.problem();
         if let Some(changes) = revision.since(self.known) {
-            let cells = changes.iter().flat_map(changed);
-            let opened = changes.iter().any(opens);
-            self.catch_up(problem, cells.copied(), opened);
+            let (cells, opened) = flipped(changes);
+            self.catch_up(revision.problem(), cells, opened);
         }
     }
 

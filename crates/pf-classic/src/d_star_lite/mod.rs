@@ -3,7 +3,7 @@
 mod distances;
 mod guided;
 
-use crate::{Auto, jps::opens};
+use crate::{Auto, jps::flipped};
 use guided::{Found, Guided, Way};
 use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
@@ -428,7 +428,7 @@ impl Replanner<GridProblem> for DStarLite {
             }
         }
         self.known = Some(problem.stamp());
-        self.opened |= changes.iter().any(opens);
+        self.opened |= flipped(changes).1;
         if self.pending.len() > layout.len() {
             // More than there is to repair: only a new plan makes the distances right.
             self.pending.clear();

@@ -72,13 +72,8 @@ impl Jps {
         self.map.turns(problem.grid())
     }
 
-    /// Whether its bits are those of a problem's grid as it is.
-    pub(crate) fn is_of(&self, problem: &GridProblem) -> bool {
-        self.map.is_of(problem.grid(), problem.moves())
-    }
-
     fn look_at(&mut self, problem: &GridProblem) {
-        if !self.is_of(problem) {
+        if !self.map.is_of(problem.grid(), problem.moves()) {
             self.map.make(problem.grid(), problem.moves());
             self.search.forget();
         }
@@ -88,9 +83,8 @@ impl Jps {
     /// Follows changes with its bits.
     fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
         if let Some(changes) = revision.since(self.known) {
-            let cells = changes.iter().flat_map(changed);
-            let opened = changes.iter().any(opens);
-            self.catch_up(revision.problem(), cells.copied(), opened);
+            let (cells, opened) = flipped(changes);
+            self.catch_up(revision.problem(), cells, opened);
         }
     }
 
@@ -164,17 +158,14 @@ impl Jps {
     }
 }
 
-/// The cells that a change blocks or frees.
-pub(crate) fn changed(change: &GridChange) -> &[Cell] {
-    match change {
-        GridChange::Blocked(cells) | GridChange::Freed(cells) => cells,
+/// The cells that changes block or free, and whether they free any.
+pub(crate) fn flipped(changes: &[GridChange]) -> (impl Iterator<Item = Cell>, bool) {
+    let cells = changes.iter().flat_map(|change| match change {
+        GridChange::Blocked(cells) | GridChange::Freed(cells) => &cells[..],
         _ => &[],
-    }
-}
-
-/// Whether a change may make something shorter, on a grid without terrain.
-pub(crate) fn opens(change: &GridChange) -> bool {
-    matches!(change, GridChange::Freed(_))
+    });
+    let opened = changes.iter().any(|it| matches!(it, GridChange::Freed(_)));
+    (cells.copied(), opened)
 }
 
 fn report(
