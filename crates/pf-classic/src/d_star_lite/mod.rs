@@ -486,7 +486,6 @@ impl Replanner<GridProblem> for DStarLite {
             self.catch_up(problem);
             // Looks at the grid anew if that did not do.
             self.auto.jumps(problem);
-            (self.behind, self.opened) = (Some(self.pending.len()), false);
         }
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)

@@ -86,14 +86,14 @@ impl<W: Word> JumpSearch<W> {
         };
         self.open.push(first, start, W::default());
         let end = self.search(problem, jumps, octile, learns, cx);
-        if let End::Goal(whole) = end {
+        if learns && let End::Goal(whole) = end {
             // No way on from what was expanded is shorter than what the way there leaves of the best.
             let records = &self.records;
-            let left = |id: u32| whole.max(records[id as usize].g) - { records[id as usize].g };
-            let found = self.expanded.drain(..).map(|id| (id, left(id)));
-            if learns {
-                self.learned.learn(records.len(), found);
-            }
+            let found = self.expanded.drain(..).map(|id| {
+                let g = records[id as usize].g;
+                (id, whole.max(g) - g)
+            });
+            self.learned.learn(records.len(), found);
         }
         end
     }
