@@ -20,7 +20,8 @@ params!(AutoParams {});
 /// note `search` says which of the two answered, and why. A map is surveyed at the first query, and
 /// again when one cell in a hundred has changed. A replan keeps what is left of the last path, without a
 /// search, where nothing happened but that the robot followed it and cells were blocked beside it, or
-/// on it and it can bend ([`LastPath`]); the note `replanned` says `kept` or `afresh`.
+/// on it and it can bend ([`LastPath`]); the note `replanned` says `kept` or `afresh`. Where it breaks, a
+/// search by jump points ends where it can join what is left.
 ///
 /// One iteration is one expansion of the search chosen.
 ///
@@ -66,12 +67,11 @@ impl Survey {
     /// one from 15 % on, at 1.4 turns a cell, where nearly all obstacles are alone, and at 40 % still
     /// half of them; a maze whose corridors are one cell wide has 2.6 turns a cell, and few are.
     fn of(grid: &Grid, jps: &mut Jps, problem: &GridProblem) -> Self {
-        let lone = lone(grid);
         let free = u64::from(grid.free_cells());
         let blocked = u64::from(grid.width()) * u64::from(grid.height()) - free;
         // How often a straight run would have to stop at a free cell, by direction.
         let turns = jps.turns(problem);
-        let strewn = turns * 5 > free * 6 && lone * 4 > blocked;
+        let strewn = turns * 5 > free * 6 && lone(grid) * 4 > blocked;
         #[expect(clippy::cast_precision_loss, reason = "a number to be read")]
         let each = turns as f64 / free.max(1) as f64;
         let why = if strewn {
@@ -137,14 +137,20 @@ impl Auto {
         self.survey.as_ref().is_some_and(|survey| !survey.strewn)
     }
 
-    /// Answers by jump points, and remembers no path.
+    /// Makes the next jump find its memory.
+    pub(crate) fn prepare(&mut self, problem: &GridProblem) {
+        self.jps.prepare(problem);
+    }
+
+    /// Answers by jump points, and from what is left of a last path, in whose place it leaves the one found.
     pub(crate) fn jump(
         &mut self,
         problem: &GridProblem,
+        last: &mut LastPath,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.known = Some(problem.stamp());
-        self.jps.answer(problem, true, cx)
+        self.jps.answer(problem, Some(last), cx)
     }
 
     /// Whether a grid was ever surveyed.
@@ -219,8 +225,12 @@ impl Auto {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.known = Some(problem.stamp());
-        let report = if self.choose(problem, cx) {
-            self.jps.answer(problem, learns, cx)
+        let jumps = self.choose(problem, cx);
+        if jumps && learns {
+            return self.jps.answer(problem, Some(&mut self.last), cx);
+        }
+        let report = if jumps {
+            self.jps.answer(problem, None, cx)
         } else {
             self.astar.plan(problem, cx)
         }?;

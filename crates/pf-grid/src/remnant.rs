@@ -42,26 +42,33 @@ impl<'p, W: Word> Remnant<'p, W> {
             places: [(0, cell, left); PLACES],
             count: 1,
         };
-        let mut before = None;
-        for (at, next) in (0..FAR).zip(cells) {
-            let step = [next.x.wrapping_sub(cell.x), next.y.wrapping_sub(cell.y)];
-            if before.is_some_and(|before| before != step) {
-                remnant.add(at, cell, left);
-                if remnant.count == PLACES {
-                    return Some(remnant);
-                }
+        // The last step, and so many of its kind.
+        let (mut step, mut run) = ([0, 0], 0);
+        let weigh = |step: [u32; 2]| {
+            if step.contains(&0) {
+                W::STRAIGHT
+            } else {
+                W::DIAGONAL
             }
-            before = Some(step);
-            left = left
-                - if step.contains(&0) {
-                    W::STRAIGHT
-                } else {
-                    W::DIAGONAL
-                };
-            cell = next;
-            remnant.places[remnant.count] = (at + 1, cell, left);
+        };
+        let mut along = 0;
+        for next in cells.take(FAR) {
+            let now = [next.x.wrapping_sub(cell.x), next.y.wrapping_sub(cell.y)];
+            if now != step {
+                if run > 0 {
+                    left = left - weigh(step).times(run);
+                    remnant.add(along, cell, left);
+                    if remnant.count == PLACES {
+                        return Some(remnant);
+                    }
+                }
+                (step, run) = (now, 0);
+            }
+            (along, run, cell) = (along + 1, run + 1, next);
         }
-        remnant.count += usize::from(before.is_some());
+        if run > 0 {
+            remnant.add(along, cell, left - weigh(step).times(run));
+        }
         Some(remnant)
     }
 

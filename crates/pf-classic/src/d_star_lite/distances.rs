@@ -35,7 +35,7 @@ struct Planned<W> {
 /// detour of half as many there and back.
 const AROUND: u32 = 64;
 /// So many expansions are always worth it.
-const LEAST: u64 = 1 << 12;
+const LEAST: u64 = 1 << 10;
 
 impl<W: Word> Default for Distances<W> {
     fn default() -> Self {

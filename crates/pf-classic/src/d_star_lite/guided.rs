@@ -147,6 +147,7 @@ impl<W: Word> Guided<W> {
     pub(super) fn prepare(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
         self.learn();
         self.distances.prepare(problem);
+        self.search.prepare(problem.grid().layout());
         let is_basis = self.basis.is_some_and(|(goal, _)| goal == problem.goal());
         if is_basis {
             self.distances.look_around(problem, cx);

@@ -120,10 +120,12 @@ const DEBT: u64 = 3;
 /// Where jump points are at hand, a search is given up that has expanded one of so many cells that a plan does:
 /// they expand fewer yet.
 const PATIENT: u64 = 16;
+/// One jump is tried once answers have expanded one of so many.
+const CURIOUS: u64 = 4;
 /// With less patience than that it is not begun.
 const CURT: u64 = 8;
 /// Their bits are made once answers have expanded one cell in so many of the map's: it takes about as long.
-const BITS: u64 = 64;
+const BITS: u64 = 512;
 /// They are made anew where more cells than that change at once.
 const MANY: usize = 256;
 
@@ -278,10 +280,11 @@ impl DStarLite {
         if !is_ready || !problem.grid().is_uniform() {
             return u64::MAX;
         }
-        let most = if self.jump_effort > 0 {
-            self.jump_effort
-        } else {
-            self.effort / PATIENT
+        let most = match self.jump_effort {
+            // Nobody knows how many until one was made.
+            0 if self.debt > self.effort / CURIOUS => 0,
+            0 => self.effort / PATIENT,
+            known => known,
         };
         most.checked_shr(self.given_up).unwrap_or(0)
     }
@@ -306,7 +309,7 @@ impl DStarLite {
         cx.note("replanned", "jumped");
         self.catch_up(problem);
         let before = cx.stats().expanded;
-        let report = self.auto.jump(problem, cx)?;
+        let report = self.auto.jump(problem, &mut self.last_path, cx)?;
         let expanded = cx.stats().expanded - before;
         if !cx.stopped() {
             self.jump_effort = match self.jump_effort {
@@ -319,7 +322,6 @@ impl DStarLite {
         if gave_up {
             guided!(&mut self.width, guided => guided.be_told(problem, &report.outcome));
         }
-        self.last_path.remember(problem, &report);
         Ok(report)
     }
 
@@ -485,7 +487,9 @@ impl Replanner<GridProblem> for DStarLite {
         if self.auto.is_in_use() || self.debt > worth {
             self.catch_up(problem);
             // Looks at the grid anew if that did not do.
-            self.auto.jumps(problem);
+            if self.auto.jumps(problem) {
+                self.auto.prepare(problem);
+            }
         }
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)

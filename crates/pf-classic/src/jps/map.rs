@@ -4,7 +4,7 @@ use pf_core::Stamp;
 use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, Successors, successors};
 
 /// For each straight direction a bit per cell, set where a scan in that direction stops: at blocked
-/// cells and at cells from which the search may go on elsewhere than straight on.
+/// cells and at *turns*, cells from which the search may go on elsewhere than straight on.
 ///
 /// East and west lie in rows; south and north in columns, so that every scan runs along words of 64
 /// cells. A changed cell changes the bits of the nine cells around it.
@@ -67,19 +67,31 @@ impl JumpMap {
                 clear_columns(stops, grid, self.pitch);
             }
         }
-        for first in (0..layout.len()).step_by(64) {
-            #[expect(clippy::cast_possible_truncation, reason = "an id")]
-            let first = first as u32;
+        // Cells that are free, and those beside them in their row.
+        #[expect(clippy::cast_possible_truncation, reason = "ids")]
+        let firsts = (0..layout.len() as u32).step_by(64);
+        let beside = |first: u32| grid.free_bits(first.wrapping_sub(1)) & grid.free_bits(first + 1);
+        let wide = |first| grid.free_bits(first) & beside(first);
+        let wide: Vec<u64> = firsts.clone().map(wide).collect();
+        let pitch = layout.pitch();
+        for first in firsts {
+            let free = grid.free_bits(first);
+            if free == 0 {
+                continue;
+            }
+            // What is said of the border's rows does not matter.
+            let rows = [first.wrapping_sub(pitch), first, first + pitch];
+            let rows = rows.map(|first| bits(&wide, first));
             // Those that have something blocked beside them.
-            let beside = layout.offsets().into_iter().fold(0, |blocked, offset| {
-                blocked | !grid.free_bits(first.wrapping_add_signed(offset))
-            });
-            let mut turns = grid.free_bits(first) & beside;
+            let mut turns = free & !(rows[0] & rows[1] & rows[2]);
             while turns != 0 {
                 let id = first + turns.trailing_zeros();
                 turns &= turns - 1;
-                let around = usize::from(grid.around_id(id));
-                self.set(self.place(&layout, id), self.forced[around]);
+                let stops = self.forced[usize::from(grid.around_id(id))];
+                // Elsewhere nothing is set.
+                if stops != 0 {
+                    self.set(self.place(&layout, id), stops);
+                }
             }
         }
         self.made = Some((grid.stamp(), moves, layout));
@@ -215,6 +227,15 @@ impl Place {
     }
 }
 
+/// 64 bits from one on; beyond the last all are zero.
+#[inline]
+fn bits(words: &[u64], first: u32) -> u64 {
+    let (at, shift) = (first as usize / 64, first % 64);
+    let word = |at| words.get(at).copied().unwrap_or(0);
+    // By 63 and one more, as nothing shifts by 64.
+    word(at) >> shift | word(at + 1) << (63 - shift) << 1
+}
+
 /// Clears the bits of free cells in an order by columns.
 fn clear_columns(bits: &mut [u64], grid: &Grid, pitch: u32) {
     let layout = grid.layout();
@@ -227,7 +248,9 @@ fn clear_columns(bits: &mut [u64], grid: &Grid, pitch: u32) {
                 // What lies beyond the row is the next one.
                 *row = free & u64::MAX >> 64u32.saturating_sub(width - x);
             }
-            transpose(&mut block);
+            if block.iter().any(|&row| row != u64::MAX) {
+                transpose(&mut block);
+            }
             for (column, x) in block.into_iter().zip(x..width) {
                 let at = (x + 1) * pitch + y + 1;
                 let (word, shift) = (at as usize / 64, at % 64);

@@ -14,8 +14,8 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{Cell, Found, GridChange, GridProblem};
-use search::ExactJumps;
+use pf_grid::{Cell, GridChange, GridProblem, LastPath};
+use search::{ExactJumps, Found};
 
 /// Jump point search has no parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -80,6 +80,11 @@ impl Jps {
         self.known = Some(problem.stamp());
     }
 
+    /// Makes the next search find its memory.
+    pub(crate) fn prepare(&mut self, problem: &GridProblem) {
+        self.search.prepare(problem.grid().layout());
+    }
+
     /// Follows changes with its bits.
     fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
         if let Some(changes) = revision.since(self.known) {
@@ -128,16 +133,17 @@ impl Planner<GridProblem> for Jps {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        self.answer(problem, false, cx)
+        self.answer(problem, None, cx)
     }
 }
 
 impl Jps {
-    /// Answers, and learns for answers to come.
+    /// Answers. Where a last path is given, even an empty one, it learns for answers to come, ends where it can join
+    /// what is left of that path, and leaves the one it found in its place.
     pub(crate) fn answer(
         &mut self,
         problem: &GridProblem,
-        learns: bool,
+        mut last: Option<&mut LastPath>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         let grid = problem.grid();
@@ -150,11 +156,22 @@ impl Jps {
         }
         self.look_at(problem);
         let goal = self.map.mark(problem.goal());
-        let found = self
-            .search
-            .find(problem, &Scans::of(problem, &self.map), learns, cx);
+        let jumps = Scans::of(problem, &self.map);
+        let found = self.search.find(problem, &jumps, last.as_deref(), cx);
         self.map.restore(goal);
-        Ok(report(problem, found, cx))
+        if let (Found::Joined(way, along), Some(last)) = (&found, &mut last) {
+            let report = last.rejoin(problem, (false, *along), way, cx);
+            debug_assert!(
+                report.is_some(),
+                "the judge refuses a way that was found legal"
+            );
+            return report.map_or_else(|| self.answer(problem, None, cx), Ok);
+        }
+        let report = report(problem, found, cx);
+        if let Some(last) = last {
+            last.remember(problem, &report);
+        }
+        Ok(report)
     }
 }
 
@@ -176,7 +193,7 @@ fn report(
     match found {
         Found::Path(path) => cx.answer(problem, path, Proof::Optimal),
         Found::Nothing => cx.report(Outcome::Infeasible),
-        Found::Cut => cx.report(Outcome::Unknown { attempt: None }),
+        Found::Cut | Found::Joined(..) => cx.report(Outcome::Unknown { attempt: None }),
     }
 }
 
@@ -188,6 +205,6 @@ impl Replanner<GridProblem> for Jps {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.follow(revision);
-        self.answer(revision.problem(), true, cx)
+        self.answer(revision.problem(), Some(&mut LastPath::default()), cx)
     }
 }

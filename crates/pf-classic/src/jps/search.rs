@@ -3,7 +3,8 @@
 use super::jumps::{Jumps, fans};
 use pf_core::Context;
 use pf_grid::{
-    Buckets, Cell, End, Found, GridProblem, Layout, Learned, Moves, Weights, Word, successors,
+    Buckets, Cell, End, GridProblem, LastPath, Layout, Learned, Moves, Remnant, Weights, Word,
+    successors,
 };
 
 /// What is known of a jump point.
@@ -39,6 +40,10 @@ pub(super) struct JumpSearch<W: Copy> {
     /// What searches to the same goal have found out about jump points.
     learned: Learned<W>,
     goal: u32,
+    /// Where the last search joined what is left of the last path, and how far along that is.
+    joined: Option<(u32, usize)>,
+    /// The way from there to the join, both ends included.
+    way: Vec<Cell>,
 }
 
 /// A ring of more buckets costs more than the order within a bucket is worth.
@@ -50,12 +55,13 @@ const MOST_BUCKETS: u64 = 1 << 14;
 const SLACK: u32 = 4;
 
 impl<W: Word> JumpSearch<W> {
-    /// Searches from start to goal, both free.
+    /// Searches from start to goal, both free. Where a last path is given, even an empty one, it learns for searches to
+    /// come, and ends where it can join what is left of that path.
     pub(super) fn run(
         &mut self,
         problem: &GridProblem,
         jumps: &impl Jumps,
-        learns: bool,
+        last: Option<&LastPath>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let grid = problem.grid();
@@ -67,7 +73,7 @@ impl<W: Word> JumpSearch<W> {
         self.begin(&layout);
         let (start, goal) = (layout.id(problem.start()), layout.id(problem.goal()));
         // Who does not learn answers as if nothing had been asked before.
-        if self.goal != goal || !learns {
+        if self.goal != goal || last.is_none() {
             self.learned.forget();
             self.goal = goal;
         }
@@ -85,8 +91,11 @@ impl<W: Word> JumpSearch<W> {
             ..Record::default()
         };
         self.open.push(first, start, W::default());
-        let end = self.search(problem, jumps, octile, learns, cx);
-        if learns && let End::Goal(whole) = end {
+        let remnant = last.map(|last| last.remnant(problem, false));
+        let end = self.search(problem, jumps, octile, remnant.as_ref(), cx);
+        if last.is_some()
+            && let End::Goal(whole) = end
+        {
             // No way on from what was expanded is shorter than what the way there leaves of the best.
             let records = &self.records;
             let found = self.expanded.drain(..).map(|id| {
@@ -103,7 +112,8 @@ impl<W: Word> JumpSearch<W> {
         self.learned.forget();
     }
 
-    fn begin(&mut self, layout: &Layout) {
+    /// Makes ready for grids of a layout, so that the next search need not.
+    fn prepare(&mut self, layout: &Layout) {
         if self.layout != Some(*layout) {
             self.layout = Some(*layout);
             self.records.clear();
@@ -111,6 +121,10 @@ impl<W: Word> JumpSearch<W> {
             self.generation = 0;
             self.learned = Learned::default();
         }
+    }
+
+    fn begin(&mut self, layout: &Layout) {
+        self.prepare(layout);
         if self.generation == u16::MAX {
             self.records.fill(Record::default());
             self.generation = 0;
@@ -123,7 +137,7 @@ impl<W: Word> JumpSearch<W> {
         problem: &GridProblem,
         jumps: &impl Jumps,
         octile: impl Fn(u32) -> W,
-        learns: bool,
+        remnant: Option<&Option<Remnant<'_, W>>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let (grid, moves) = (problem.grid(), problem.moves());
@@ -132,6 +146,7 @@ impl<W: Word> JumpSearch<W> {
         let mut bound = W::LIMIT;
         self.beyond = false;
         self.expanded.clear();
+        self.joined = None;
         while let Some((id, g)) = self.open.pop(bound) {
             let record = &mut self.records[id as usize];
             if record.closed || { record.g } != g {
@@ -141,14 +156,25 @@ impl<W: Word> JumpSearch<W> {
                 return End::Cut;
             }
             record.closed = true;
-            if learns {
+            if remnant.is_some() {
                 self.expanded.push(id);
             }
             let mut arrivals = record.arrivals;
             cx.expanded(|| grid.layout().cell(id));
             if id == goal {
-                bound = bound.min(g);
+                if g < bound {
+                    (bound, self.joined) = (g, None);
+                }
                 continue;
+            }
+            if let Some(Some(remnant)) = remnant {
+                let left = octile(id).max(self.learned.at(id));
+                if g + left < bound
+                    && let Some(along) = remnant.join(grid.layout().cell(id), left, &mut self.way)
+                {
+                    (bound, self.joined) = (g + left, Some((id, along)));
+                    continue;
+                }
             }
             let around = grid.around_id(id);
             let mut ways = if arrivals == 0 {
@@ -253,13 +279,17 @@ impl<W: Word> JumpSearch<W> {
         }
     }
 
-    /// The path on which the last search reached its goal, the start first.
-    pub(super) fn path(&self, problem: &GridProblem) -> Vec<Cell> {
+    /// The path on which the last search reached its goal, the start first; or its part up to the join.
+    fn path(&self, problem: &GridProblem) -> Vec<Cell> {
         let layout = problem.grid().layout();
-        let (mut id, start) = (layout.id(problem.goal()), layout.id(problem.start()));
+        let start = layout.id(problem.start());
+        let (mut id, on) = match self.joined {
+            Some((id, _)) => (id, &self.way[1..]),
+            None => (layout.id(problem.goal()), &[][..]),
+        };
         let weight = self.records[id as usize].g;
-        let mut path = Vec::with_capacity(weight.over(W::STRAIGHT) + 1);
-        path.push(problem.goal());
+        let mut path = Vec::with_capacity(weight.over(W::STRAIGHT) + 1 + on.len());
+        path.push(layout.cell(id));
         while id != start {
             let parent = self.records[id as usize].parent;
             back(
@@ -271,6 +301,7 @@ impl<W: Word> JumpSearch<W> {
             id = parent;
         }
         path.reverse();
+        path.extend_from_slice(on);
         path
     }
 
@@ -280,6 +311,7 @@ impl<W: Word> JumpSearch<W> {
             + self.open.bytes()
             + self.expanded.capacity() * size_of::<u32>()
             + self.learned.bytes()
+            + self.way.capacity() * size_of::<Cell>()
     }
 }
 
@@ -300,6 +332,19 @@ fn back(moves: Moves, from: Cell, to: Cell, path: &mut Vec<Cell>) {
         };
         path.push(at);
     }
+}
+
+/// What was found.
+#[derive(Debug)]
+pub(super) enum Found {
+    /// A shortest path.
+    Path(Vec<Cell>),
+    /// The first part of one, up to where it joins what is left of the last path, so far along.
+    Joined(Vec<Cell>, usize),
+    /// There is none.
+    Nothing,
+    /// The budget ran out first.
+    Cut,
 }
 
 /// A [`JumpSearch`] in the narrowest word that orders its paths exactly, as of
@@ -324,30 +369,40 @@ impl Default for Width {
 }
 
 impl ExactJumps {
-    /// Finds a shortest path between two free cells. If it `learns`, later searches to the same goal are shorter,
-    /// as long as cells are only blocked; where any is freed, it has to [`forget`](Self::forget).
+    /// Finds a shortest path between two free cells. Where a last path is given, even an empty one, later searches to
+    /// the same goal are shorter, as long as cells are only blocked, and this one may end at what is left of that path;
+    /// where any cell is freed, it has to [`forget`](Self::forget).
     pub(super) fn find(
         &mut self,
         problem: &GridProblem,
         jumps: &impl Jumps,
-        learns: bool,
+        last: Option<&LastPath>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Found {
-        let layout = *problem.grid().layout();
-        if self.layout != Some(layout) {
-            self.layout = Some(layout);
-            self.width = Width::default();
-        }
+        self.prepare(problem.grid().layout());
         loop {
             let found = match &mut self.width {
-                Width::Narrow(search) => find(search, problem, jumps, learns, cx),
-                Width::Wide(search) => find(search, problem, jumps, learns, cx),
-                Width::Huge(search) => find(search, problem, jumps, learns, cx),
+                Width::Narrow(search) => find(search, problem, jumps, last, cx),
+                Width::Wide(search) => find(search, problem, jumps, last, cx),
+                Width::Huge(search) => find(search, problem, jumps, last, cx),
             };
             match found {
                 Some(found) => return found,
                 None => self.width.widen(),
             }
+        }
+    }
+
+    /// Makes ready for grids of a layout, so that the next search need not.
+    pub(super) fn prepare(&mut self, layout: &Layout) {
+        if self.layout == Some(*layout) {
+            return;
+        }
+        self.layout = Some(*layout);
+        // The old memory goes before the new comes.
+        self.width = Width::default();
+        if let Width::Narrow(search) = &mut self.width {
+            search.prepare(layout);
         }
     }
 
@@ -375,11 +430,14 @@ fn find<W: Word>(
     search: &mut JumpSearch<W>,
     problem: &GridProblem,
     jumps: &impl Jumps,
-    learns: bool,
+    last: Option<&LastPath>,
     cx: &mut Context<'_, GridProblem>,
 ) -> Option<Found> {
-    match search.run(problem, jumps, learns, cx) {
-        End::Goal(_) => Some(Found::Path(search.path(problem))),
+    match search.run(problem, jumps, last, cx) {
+        End::Goal(_) => Some(match search.joined {
+            Some((_, along)) => Found::Joined(search.path(problem), along),
+            None => Found::Path(search.path(problem)),
+        }),
         End::Exhausted => Some(Found::Nothing),
         End::Cut => Some(Found::Cut),
         End::TooFar => None,
