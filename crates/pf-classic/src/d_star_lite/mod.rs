@@ -120,11 +120,11 @@ const DEBT: u64 = 3;
 /// Where jump points are at hand, a search is given up that has expanded one of so many cells that a plan does:
 /// they expand fewer yet.
 const PATIENT: u64 = 16;
-/// One jump is tried once answers have expanded one of so many.
+/// How many jumps expand is found out once answers have expanded one of so many.
 const CURIOUS: u64 = 4;
 /// With less patience than that it is not begun.
 const CURT: u64 = 8;
-/// Their bits are made once answers have expanded one cell in so many of the map's: it takes about as long.
+/// Their bits are made once answers have expanded one cell in so many of the map's: on an open map it takes as long.
 const BITS: u64 = 512;
 /// They are made anew where more cells than that change at once.
 const MANY: usize = 256;
@@ -281,7 +281,6 @@ impl DStarLite {
             return u64::MAX;
         }
         let most = match self.jump_effort {
-            // Nobody knows how many until one was made.
             0 if self.debt > self.effort / CURIOUS => 0,
             0 => self.effort / PATIENT,
             known => known,
