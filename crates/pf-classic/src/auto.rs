@@ -150,7 +150,7 @@ impl Auto {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.known = Some(problem.stamp());
-        self.jps.answer(problem, Some(last), cx)
+        self.jps.answer(problem, true, Some(last), cx)
     }
 
     /// Whether a grid was ever surveyed.
@@ -227,10 +227,10 @@ impl Auto {
         self.known = Some(problem.stamp());
         let jumps = self.choose(problem, cx);
         if jumps && learns {
-            return self.jps.answer(problem, Some(&mut self.last), cx);
+            return self.jps.answer(problem, true, Some(&mut self.last), cx);
         }
         let report = if jumps {
-            self.jps.answer(problem, None, cx)
+            self.jps.answer(problem, false, None, cx)
         } else {
             self.astar.plan(problem, cx)
         }?;

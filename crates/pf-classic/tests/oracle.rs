@@ -208,6 +208,86 @@ fn jump_points_are_exact_where_they_have_learned() {
     }
 }
 
+/// While there is terrain nobody jumps, and nobody may forget what changes meanwhile.
+#[test]
+fn d_star_lite_is_exact_where_terrain_comes_and_goes() {
+    let mut rng = seeded(36);
+    let mut ways = BTreeMap::new();
+    for story in 0..400 {
+        let recipe = Recipe {
+            terrain: false,
+            ..Recipe::any(&mut rng, 30..=60)
+        };
+        let mut problem = random_problem(&mut rng, &recipe);
+        let mut planner = DStarLite::default();
+        planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        let mut dear = None;
+        for batch in 0..40 {
+            planner.settle(&problem, &mut Context::seeded(0));
+            let mut changes = random_batch(&mut rng, &problem, 6);
+            changes.retain(|change| match change {
+                GridChange::GoalMoved(_) | GridChange::CostChanged(..) => false,
+                GridChange::Blocked(cells) => dear.is_none_or(|dear| !cells.contains(&dear)),
+                _ => true,
+            });
+            if let Some(cell) = dear.filter(|_| batch % 4 == 0) {
+                changes.push(GridChange::CostChanged(vec![cell], 1));
+                dear = None;
+            } else if dear.is_none() && rng.random_bool(0.3) {
+                let free = problem.grid().layout().cells();
+                dear = free.filter(|&cell| problem.grid().is_free(cell)).last();
+                changes.retain(|change| !matches!(change, GridChange::Blocked(_)));
+                changes.extend(dear.map(|cell| GridChange::CostChanged(vec![cell], 7)));
+            }
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            assert_eq!(
+                proven(&problem, &report),
+                oracle(&problem),
+                "story {story}, batch {batch}: {changes:?} led to\n{}",
+                drawing(&problem)
+            );
+            let way = report.note("replanned").unwrap_or_default();
+            *ways.entry(way.to_owned()).or_default() += 1;
+        }
+    }
+    often(&ways, &[("searched", 500), ("jumped", 200)]);
+}
+
+/// Both learn; the choice also joins what is left of its path.
+#[test]
+fn a_join_spares_expansions() {
+    let mut rng = seeded(37);
+    let mut expanded = [0, 0];
+    for _ in 0..30 {
+        let recipe = Recipe {
+            terrain: false,
+            ..Recipe::any(&mut rng, 60..=90)
+        };
+        let problem = random_problem(&mut rng, &recipe);
+        let mut drive = Drive::new(&problem, 4.0).unwrap();
+        let (mut auto, mut jps) = (Auto::default(), Jps::default());
+        let mut report = auto.plan(drive.known(), &mut Context::seeded(0)).unwrap();
+        while let Some(best) = report.outcome.solved() {
+            let Advance::Discovered(changes) = drive.advance(&best.solution) else {
+                break;
+            };
+            let revision = drive.learn(&changes).unwrap();
+            report = auto.replan(&revision, &mut Context::seeded(0)).unwrap();
+            let other = jps.replan(&revision, &mut Context::seeded(0)).unwrap();
+            let is_jump = report
+                .note("search")
+                .is_some_and(|text| text.starts_with("jps"));
+            if is_jump {
+                expanded[0] += report.stats.expanded;
+                expanded[1] += other.stats.expanded;
+            }
+        }
+    }
+    let [joined, not] = expanded;
+    assert!(joined > 1000 && joined * 10 < not * 8, "{joined} of {not}");
+}
+
 /// A robot that follows its path, and learns of walls, mostly.
 #[test]
 fn the_choice_is_exact_where_it_keeps_its_path() {

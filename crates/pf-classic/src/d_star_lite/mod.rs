@@ -2,6 +2,7 @@
 
 mod distances;
 mod guided;
+mod jumping;
 
 use crate::{Auto, jps::flipped};
 use guided::{Found, Guided, Way};
@@ -91,7 +92,7 @@ pub struct DStarLite {
     behind: Option<usize>,
     /// Whether any of those was freed.
     opened: bool,
-    /// How many cells a jump expands; 0 as long as none was made since the last plan.
+    /// How many cells a jump expands, most of which join the last path; 0 as long as none was made since the last plan.
     jump_effort: u64,
     /// How many more searches were given up than were not since the distances were made or repaired.
     given_up: u32,
@@ -116,18 +117,6 @@ impl Default for Width {
 /// So many times the expansions of a plan may be spent on answers before the distances are made
 /// right: it takes about as long.
 const DEBT: u64 = 3;
-
-/// Where jump points are at hand, a search is given up that has expanded one of so many cells that a plan does:
-/// they expand fewer yet.
-const PATIENT: u64 = 16;
-/// How many jumps expand is found out once answers have expanded one of so many.
-const CURIOUS: u64 = 4;
-/// With less patience than that it is not begun.
-const CURT: u64 = 8;
-/// Their bits are made once answers have expanded one cell in so many of the map's: on an open map it takes as long.
-const BITS: u64 = 512;
-/// They are made anew where more cells than that change at once.
-const MANY: usize = 256;
 
 /// The same for whichever width is in use.
 macro_rules! guided {
@@ -273,55 +262,9 @@ impl DStarLite {
         found
     }
 
-    /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
-    /// its way with those.
-    fn forbearance(&self, problem: &GridProblem) -> u64 {
-        let is_ready = news(&self.pending, self.behind).is_some() && self.auto.has_jumps();
-        if !is_ready || !problem.grid().is_uniform() {
-            return u64::MAX;
-        }
-        let most = match self.jump_effort {
-            0 if self.debt > self.effort / CURIOUS => 0,
-            0 => self.effort / PATIENT,
-            known => known,
-        };
-        most.checked_shr(self.given_up).unwrap_or(0)
-    }
-
-    /// Tells who jumps what is new.
-    fn catch_up(&mut self, problem: &GridProblem) {
-        if let Some(news) = news(&self.pending, self.behind) {
-            let layout = problem.grid().layout();
-            let cells = news.iter().map(|&id| layout.cell(id));
-            self.auto.catch_up(problem, cells, self.opened);
-        }
-        (self.behind, self.opened) = (Some(self.pending.len()), false);
-    }
-
-    /// Answers by jump points. A search that gave up learns what it was to find.
-    fn jump(
-        &mut self,
-        problem: &GridProblem,
-        gave_up: bool,
-        cx: &mut Context<'_, GridProblem>,
-    ) -> Result<Report<GridProblem>, Unsupported> {
-        cx.note("replanned", "jumped");
-        self.catch_up(problem);
-        let before = cx.stats().expanded;
-        let report = self.auto.jump(problem, &mut self.last_path, cx)?;
-        let expanded = cx.stats().expanded - before;
-        if !cx.stopped() {
-            self.jump_effort = match self.jump_effort {
-                0 => expanded,
-                mean => (3 * mean + expanded) / 4,
-            };
-        }
-        let is_proof = matches!(report.outcome, Outcome::Infeasible);
-        self.last = is_proof.then_some((problem.stamp(), Found::Nothing));
-        if gave_up {
-            guided!(&mut self.width, guided => guided.be_told(problem, &report.outcome));
-        }
-        Ok(report)
+    /// A search that gave up learns what it was to find.
+    fn be_told(&mut self, problem: &GridProblem, outcome: &Outcome<GridProblem>) {
+        guided!(&mut self.width, guided => guided.be_told(problem, outcome));
     }
 
     fn report(
@@ -358,12 +301,6 @@ impl Width {
             Self::Huge(Guided::default())
         };
     }
-}
-
-/// Of the cells that changed those that who jumps does not know of yet, if the rest is known, and they are few.
-fn news(pending: &[u32], known: Option<usize>) -> Option<&[u32]> {
-    let news = pending.get(known?..)?;
-    (news.len() <= MANY).then_some(news)
 }
 
 /// Whether no search is needed to see that there is no path.
@@ -461,7 +398,7 @@ impl Replanner<GridProblem> for DStarLite {
                 cx.note("replanned", "kept");
                 found
             }
-            _ if self.forbearance(problem) < CURT => return self.jump(problem, false, cx),
+            _ if self.jumps_at_once(problem) => return self.jump(problem, false, cx),
             _ => self.answer(problem, cx),
         };
         if found == Found::GaveUp {
@@ -482,14 +419,7 @@ impl Replanner<GridProblem> for DStarLite {
         if !cx.proceed() {
             return;
         }
-        let worth = problem.grid().layout().len() as u64 / BITS;
-        if self.auto.is_in_use() || self.debt > worth {
-            self.catch_up(problem);
-            // Looks at the grid anew if that did not do.
-            if self.auto.jumps(problem) {
-                self.auto.prepare(problem);
-            }
-        }
+        self.prepare_jumps(problem);
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)
             && self.repair(problem, cx).is_none()

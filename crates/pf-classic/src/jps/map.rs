@@ -67,7 +67,7 @@ impl JumpMap {
                 clear_columns(stops, grid, self.pitch);
             }
         }
-        // Cells that are free, and those beside them in their row.
+        // Cells that are free, as are both beside them in their row.
         #[expect(clippy::cast_possible_truncation, reason = "ids")]
         let firsts = (0..layout.len() as u32).step_by(64);
         let beside = |first: u32| grid.free_bits(first.wrapping_sub(1)) & grid.free_bits(first + 1);
@@ -79,7 +79,7 @@ impl JumpMap {
             if free == 0 {
                 continue;
             }
-            // What is said of the border's rows does not matter.
+            // Where there is no row above, cells are looked at one by one.
             let rows = [first.wrapping_sub(pitch), first, first + pitch];
             let rows = rows.map(|first| bits(&wide, first));
             // Those that have something blocked beside them.
@@ -88,8 +88,8 @@ impl JumpMap {
                 let id = first + turns.trailing_zeros();
                 turns &= turns - 1;
                 let stops = self.forced[usize::from(grid.around_id(id))];
-                // Elsewhere nothing is set.
-                if stops != 0 {
+                // Elsewhere it is so already.
+                if stops != open {
                     self.set(self.place(&layout, id), stops);
                 }
             }

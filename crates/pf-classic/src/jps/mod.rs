@@ -133,16 +133,17 @@ impl Planner<GridProblem> for Jps {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
-        self.answer(problem, None, cx)
+        self.answer(problem, false, None, cx)
     }
 }
 
 impl Jps {
-    /// Answers. Where a last path is given, even an empty one, it learns for answers to come, ends where it can join
-    /// what is left of that path, and leaves the one it found in its place.
+    /// Answers. If it learns, answers to come take less. Where a last path is given, it ends where it can join what is
+    /// left of that, and leaves the path it found in its place.
     pub(crate) fn answer(
         &mut self,
         problem: &GridProblem,
+        learns: bool,
         mut last: Option<&mut LastPath>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
@@ -157,7 +158,9 @@ impl Jps {
         self.look_at(problem);
         let goal = self.map.mark(problem.goal());
         let jumps = Scans::of(problem, &self.map);
-        let found = self.search.find(problem, &jumps, last.as_deref(), cx);
+        let found = self
+            .search
+            .find(problem, &jumps, learns, last.as_deref(), cx);
         self.map.restore(goal);
         if let (Found::Joined(way, along), Some(last)) = (&found, &mut last) {
             let report = last.rejoin(problem, (false, *along), way, cx);
@@ -165,7 +168,7 @@ impl Jps {
                 report.is_some(),
                 "the judge refuses a way that was found legal"
             );
-            return report.map_or_else(|| self.answer(problem, None, cx), Ok);
+            return report.map_or_else(|| self.answer(problem, learns, None, cx), Ok);
         }
         let report = report(problem, found, cx);
         if let Some(last) = last {
@@ -205,6 +208,6 @@ impl Replanner<GridProblem> for Jps {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.follow(revision);
-        self.answer(revision.problem(), Some(&mut LastPath::default()), cx)
+        self.answer(revision.problem(), true, None, cx)
     }
 }

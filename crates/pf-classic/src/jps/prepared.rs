@@ -105,7 +105,7 @@ impl Planner<GridProblem> for Prepared {
             return Ok(cx.report(Outcome::Infeasible));
         }
         let jumps = Lookups::of(problem, &self.table);
-        let found = self.search.find(problem, &jumps, None, cx);
+        let found = self.search.find(problem, &jumps, false, None, cx);
         Ok(report(problem, found, cx))
     }
 }

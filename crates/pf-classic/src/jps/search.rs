@@ -55,12 +55,13 @@ const MOST_BUCKETS: u64 = 1 << 14;
 const SLACK: u32 = 4;
 
 impl<W: Word> JumpSearch<W> {
-    /// Searches from start to goal, both free. Where a last path is given, even an empty one, it learns for searches to
-    /// come, and ends where it can join what is left of that path.
+    /// Searches from start to goal, both free. If it learns, searches to come take less. Where a last path is given, it ends
+    /// where it can join what is left of that.
     pub(super) fn run(
         &mut self,
         problem: &GridProblem,
         jumps: &impl Jumps,
+        learns: bool,
         last: Option<&LastPath>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
@@ -73,7 +74,7 @@ impl<W: Word> JumpSearch<W> {
         self.begin(&layout);
         let (start, goal) = (layout.id(problem.start()), layout.id(problem.goal()));
         // Who does not learn answers as if nothing had been asked before.
-        if self.goal != goal || last.is_none() {
+        if self.goal != goal || !learns {
             self.learned.forget();
             self.goal = goal;
         }
@@ -91,11 +92,9 @@ impl<W: Word> JumpSearch<W> {
             ..Record::default()
         };
         self.open.push(first, start, W::default());
-        let remnant = last.map(|last| last.remnant(problem, false));
-        let end = self.search(problem, jumps, octile, remnant.as_ref(), cx);
-        if last.is_some()
-            && let End::Goal(whole) = end
-        {
+        let remnant = last.and_then(|last| last.remnant(problem, false));
+        let end = self.search(problem, jumps, octile, learns, remnant.as_ref(), cx);
+        if learns && let End::Goal(whole) = end {
             // No way on from what was expanded is shorter than what the way there leaves of the best.
             let records = &self.records;
             let found = self.expanded.drain(..).map(|id| {
@@ -137,7 +136,8 @@ impl<W: Word> JumpSearch<W> {
         problem: &GridProblem,
         jumps: &impl Jumps,
         octile: impl Fn(u32) -> W,
-        remnant: Option<&Option<Remnant<'_, W>>>,
+        learns: bool,
+        remnant: Option<&Remnant<'_, W>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let (grid, moves) = (problem.grid(), problem.moves());
@@ -156,7 +156,7 @@ impl<W: Word> JumpSearch<W> {
                 return End::Cut;
             }
             record.closed = true;
-            if remnant.is_some() {
+            if learns {
                 self.expanded.push(id);
             }
             let mut arrivals = record.arrivals;
@@ -167,7 +167,7 @@ impl<W: Word> JumpSearch<W> {
                 }
                 continue;
             }
-            if let Some(Some(remnant)) = remnant {
+            if let Some(remnant) = remnant {
                 let left = octile(id).max(self.learned.at(id));
                 if g + left < bound
                     && let Some(along) = remnant.join(grid.layout().cell(id), left, &mut self.way)
@@ -369,22 +369,23 @@ impl Default for Width {
 }
 
 impl ExactJumps {
-    /// Finds a shortest path between two free cells. Where a last path is given, even an empty one, later searches to
-    /// the same goal are shorter, as long as cells are only blocked, and this one may end at what is left of that path;
-    /// where any cell is freed, it has to [`forget`](Self::forget).
+    /// Finds a shortest path between two free cells. If it `learns`, later searches to the same goal are shorter,
+    /// as long as cells are only blocked; where any is freed, it has to [`forget`](Self::forget). Where a last path is
+    /// given, it ends where it can join what is left of that.
     pub(super) fn find(
         &mut self,
         problem: &GridProblem,
         jumps: &impl Jumps,
+        learns: bool,
         last: Option<&LastPath>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Found {
         self.prepare(problem.grid().layout());
         loop {
             let found = match &mut self.width {
-                Width::Narrow(search) => find(search, problem, jumps, last, cx),
-                Width::Wide(search) => find(search, problem, jumps, last, cx),
-                Width::Huge(search) => find(search, problem, jumps, last, cx),
+                Width::Narrow(search) => find(search, problem, jumps, learns, last, cx),
+                Width::Wide(search) => find(search, problem, jumps, learns, last, cx),
+                Width::Huge(search) => find(search, problem, jumps, learns, last, cx),
             };
             match found {
                 Some(found) => return found,
@@ -430,10 +431,11 @@ fn find<W: Word>(
     search: &mut JumpSearch<W>,
     problem: &GridProblem,
     jumps: &impl Jumps,
+    learns: bool,
     last: Option<&LastPath>,
     cx: &mut Context<'_, GridProblem>,
 ) -> Option<Found> {
-    match search.run(problem, jumps, last, cx) {
+    match search.run(problem, jumps, learns, last, cx) {
         End::Goal(_) => Some(match search.joined {
             Some((_, along)) => Found::Joined(search.path(problem), along),
             None => Found::Path(search.path(problem)),

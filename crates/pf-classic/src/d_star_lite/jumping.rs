@@ -1,0 +1,102 @@
+//! When D* Lite jumps, and what it tells who does.
+
+use super::{DStarLite, guided::Found};
+use pf_core::{Context, Outcome, Problem, Report, Unsupported};
+use pf_grid::GridProblem;
+
+/// Where jump points are at hand, a search is given up that has expanded one of so many cells that a plan does:
+/// they expand fewer yet.
+const PATIENT: u64 = 16;
+/// How much jumps expand is found out once answers have expanded one of so many of a plan's.
+const CURIOUS: u64 = 4;
+/// With less patience than that it is not begun.
+const CURT: u64 = 8;
+/// Their bits are made once answers have expanded one cell in so many of the map's: it takes about as long.
+const BITS: u64 = 512;
+/// They are made anew where more cells than that change at once.
+const MANY: usize = 256;
+
+impl DStarLite {
+    /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
+    /// its way with those.
+    pub(super) fn forbearance(&self, problem: &GridProblem) -> u64 {
+        let is_ready = news(&self.pending, self.behind).is_some() && self.auto.has_jumps();
+        if !is_ready || !problem.grid().is_uniform() {
+            return u64::MAX;
+        }
+        let most = match self.jump_effort {
+            0 if self.debt > self.effort / CURIOUS => 0,
+            0 => self.effort / PATIENT,
+            known => known,
+        };
+        most.checked_shr(self.given_up).unwrap_or(0)
+    }
+
+    /// Whether no search is begun.
+    pub(super) fn jumps_at_once(&self, problem: &GridProblem) -> bool {
+        self.forbearance(problem) < CURT
+    }
+
+    /// Tells who jumps what is new.
+    fn catch_up(&mut self, problem: &GridProblem) {
+        if let Some(news) = news(&self.pending, self.behind) {
+            let layout = problem.grid().layout();
+            let cells = news.iter().map(|&id| layout.cell(id));
+            self.auto.catch_up(problem, cells, self.opened);
+            self.is_caught_up();
+        }
+    }
+
+    /// Who jumps was told all that is new, or has looked at the grid.
+    fn is_caught_up(&mut self) {
+        (self.behind, self.opened) = (Some(self.pending.len()), false);
+    }
+
+    /// Answers by jump points. A search that gave up learns what it was to find.
+    pub(super) fn jump(
+        &mut self,
+        problem: &GridProblem,
+        gave_up: bool,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Result<Report<GridProblem>, Unsupported> {
+        cx.note("replanned", "jumped");
+        self.catch_up(problem);
+        let before = cx.stats().expanded;
+        let report = self.auto.jump(problem, &mut self.last_path, cx)?;
+        let expanded = cx.stats().expanded - before;
+        self.is_caught_up();
+        self.jump_effort = match self.jump_effort {
+            0 => expanded,
+            mean if cx.stopped() => mean.max(expanded),
+            mean => (3 * mean + expanded) / 4,
+        };
+        let is_proof = matches!(report.outcome, Outcome::Infeasible);
+        self.last = is_proof.then_some((problem.stamp(), Found::Nothing));
+        if gave_up {
+            self.be_told(problem, &report.outcome);
+        }
+        Ok(report)
+    }
+
+    /// Makes the bits of jump points or follows what has changed with them, if there is reason to.
+    pub(super) fn prepare_jumps(&mut self, problem: &GridProblem) {
+        let worth = problem.grid().layout().len() as u64 / BITS;
+        if !self.auto.is_in_use() && self.debt <= worth {
+            return;
+        }
+        self.catch_up(problem);
+        // Looks at the grid anew if that did not do; there is nothing to be seen on terrain.
+        if self.auto.jumps(problem) {
+            self.auto.prepare(problem);
+        }
+        if problem.grid().is_uniform() {
+            self.is_caught_up();
+        }
+    }
+}
+
+/// Of the cells that changed those that who jumps does not know of yet, if the rest is known, and they are few.
+fn news(pending: &[u32], known: Option<usize>) -> Option<&[u32]> {
+    let news = pending.get(known?..)?;
+    (news.len() <= MANY).then_some(news)
+}
