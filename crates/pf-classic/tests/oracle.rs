@@ -9,7 +9,7 @@ use pf_conformance::{
 use pf_core::{Budget, Context, Outcome, Planner, Problem, Replanner, Report};
 use pf_grid::{Advance, Cell, Drive, Grid, GridChange, GridCost, GridProblem};
 use rand::RngExt;
-use std::collections::BTreeMap;
+use std::{collections::BTreeMap, fmt::Arguments};
 
 /// The proven cost, or the proof that there is none; the judge confirms it.
 #[track_caller]
@@ -21,6 +21,31 @@ fn proven(problem: &GridProblem, report: &Report<GridProblem>) -> Option<GridCos
         }
         Outcome::Infeasible => None,
         other => panic!("{other:?} proves nothing on\n{}", drawing(problem)),
+    }
+}
+
+/// The same, after changes; the oracle confirms it, too.
+#[track_caller]
+fn exact(
+    problem: &GridProblem,
+    changes: &[GridChange],
+    report: &Report<GridProblem>,
+    place: Arguments<'_>,
+) -> Option<GridCost> {
+    let found = proven(problem, report);
+    assert_eq!(
+        found,
+        oracle(problem),
+        "{place}: {changes:?} led to\n{}",
+        drawing(problem)
+    );
+    found
+}
+
+/// Counts in which way an answer came.
+fn count(ways: &mut BTreeMap<String, u32>, report: &Report<GridProblem>) {
+    if let Some(way) = report.note("replanned") {
+        *ways.entry(way.to_owned()).or_default() += 1;
     }
 }
 
@@ -71,16 +96,9 @@ fn play(seed: u64, stories: u32, batches: u32, params: &DStarLiteParams) -> BTre
             }
             let revision = problem.revise(&changes).unwrap();
             let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-            if let Some(way) = report.note("replanned") {
-                *ways.entry(way.to_owned()).or_default() += 1;
-            }
-            let found = proven(&problem, &report);
-            assert_eq!(
-                found,
-                oracle(&problem),
-                "seed {seed}, story {story}, batch {batch}: {changes:?} led to\n{}",
-                drawing(&problem)
-            );
+            count(&mut ways, &report);
+            let place = format_args!("seed {seed}, story {story}, batch {batch}");
+            let found = exact(&problem, &changes, &report, place);
             let revision = problem.revise(&[]).unwrap();
             let again = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
             assert_eq!(proven(&problem, &again), found);
@@ -143,8 +161,7 @@ fn d_star_lite_is_exact_on_drives_where_it_jumps() {
             };
             let revision = drive.learn(&changes).unwrap();
             report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-            let way = report.note("replanned").unwrap_or_default();
-            *ways.entry(way.to_owned()).or_default() += 1;
+            count(&mut ways, &report);
         }
     }
     often(&ways, &[("kept", 500), ("jumped", 500)]);
@@ -198,12 +215,8 @@ fn jump_points_are_exact_where_they_have_learned() {
                 planner.replan(&revision, &mut Context::seeded(0))
             };
             let report = report.unwrap();
-            assert_eq!(
-                proven(&problem, &report),
-                oracle(&problem),
-                "story {story}, batch {batch}: {changes:?} led to\n{}",
-                drawing(&problem)
-            );
+            let place = format_args!("story {story}, batch {batch}");
+            exact(&problem, &changes, &report, place);
         }
     }
 }
@@ -241,14 +254,9 @@ fn d_star_lite_is_exact_where_terrain_comes_and_goes() {
             }
             let revision = problem.revise(&changes).unwrap();
             let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-            assert_eq!(
-                proven(&problem, &report),
-                oracle(&problem),
-                "story {story}, batch {batch}: {changes:?} led to\n{}",
-                drawing(&problem)
-            );
-            let way = report.note("replanned").unwrap_or_default();
-            *ways.entry(way.to_owned()).or_default() += 1;
+            let place = format_args!("story {story}, batch {batch}");
+            exact(&problem, &changes, &report, place);
+            count(&mut ways, &report);
         }
     }
     often(&ways, &[("searched", 500), ("jumped", 200)]);
@@ -310,14 +318,9 @@ fn the_choice_is_exact_where_it_keeps_its_path() {
             }
             let revision = problem.revise(&changes).unwrap();
             report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
-            assert_eq!(
-                proven(&problem, &report),
-                oracle(&problem),
-                "story {story}, batch {batch}: {changes:?} led to\n{}",
-                drawing(&problem)
-            );
-            let way = report.note("replanned").unwrap_or_default();
-            *ways.entry(way.to_owned()).or_default() += 1;
+            let place = format_args!("story {story}, batch {batch}");
+            exact(&problem, &changes, &report, place);
+            count(&mut ways, &report);
         }
     }
     often(&ways, &[("kept", 1000), ("afresh", 1000)]);

@@ -1,4 +1,4 @@
-use crate::{Cell, DIRECTIONS, GridChange, GridCost, Layout, Moves};
+use crate::{Cell, DIRECTIONS, GridChange, GridCost, Layout, Moves, bits_from};
 use pf_core::{InvalidProblem, Stamp};
 use std::fmt;
 
@@ -194,10 +194,7 @@ impl Grid {
     #[inline]
     #[must_use]
     pub fn free_bits(&self, first: u32) -> u64 {
-        let (at, shift) = (first as usize / 64, first % 64);
-        let word = |at| self.free.get(at).copied().unwrap_or(0);
-        // By 63 and one more, as nothing shifts by 64.
-        word(at) >> shift | word(at + 1) << (63 - shift) << 1
+        bits_from(&self.free, first)
     }
 
     /// The directions in which the neighbour of the cell with this id is free.

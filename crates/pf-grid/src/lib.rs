@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod bend;
+mod bits;
 mod buckets;
 mod canonical;
 mod cell;
@@ -29,6 +30,7 @@ mod weights;
 mod window;
 mod word;
 
+pub use bits::bits_from;
 pub use buckets::Buckets;
 pub use canonical::{Successors, successors};
 pub use cell::Cell;

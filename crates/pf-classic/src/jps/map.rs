@@ -1,7 +1,7 @@
 //! Where straight scans stop, a bit per cell and direction.
 
 use pf_core::Stamp;
-use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, Successors, successors};
+use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, Successors, bits_from, successors};
 
 /// For each straight direction a bit per cell, set where a scan in that direction stops: at blocked
 /// cells and at *turns*, cells from which the search may go on elsewhere than straight on.
@@ -81,7 +81,7 @@ impl JumpMap {
             }
             // Where there is no row above, cells are looked at one by one.
             let rows = [first.wrapping_sub(pitch), first, first + pitch];
-            let rows = rows.map(|first| bits(&wide, first));
+            let rows = rows.map(|first| bits_from(&wide, first));
             // Those that have something blocked beside them.
             let mut turns = free & !(rows[0] & rows[1] & rows[2]);
             while turns != 0 {
@@ -225,15 +225,6 @@ impl Place {
             turned: self.turned.wrapping_add_signed(turned),
         }
     }
-}
-
-/// 64 bits from one on; beyond the last all are zero.
-#[inline]
-fn bits(words: &[u64], first: u32) -> u64 {
-    let (at, shift) = (first as usize / 64, first % 64);
-    let word = |at| words.get(at).copied().unwrap_or(0);
-    // By 63 and one more, as nothing shifts by 64.
-    word(at) >> shift | word(at + 1) << (63 - shift) << 1
 }
 
 /// Clears the bits of free cells in an order by columns.
