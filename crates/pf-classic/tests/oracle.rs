@@ -262,6 +262,45 @@ fn d_star_lite_is_exact_where_terrain_comes_and_goes() {
     often(&ways, &[("searched", 500), ("jumped", 200)]);
 }
 
+/// A goal that moves at every step, most of the steps settled, while a few cells change.
+#[test]
+fn d_star_lite_jumps_to_a_goal_that_moves() {
+    let mut rng = seeded(38);
+    let mut ways = BTreeMap::new();
+    let mut expanded = [0, 0];
+    for round in 0..60 {
+        let recipe = Recipe {
+            terrain: false,
+            ..Recipe::any(&mut rng, 40..=90)
+        };
+        let mut problem = random_problem(&mut rng, &recipe);
+        let (mut planner, mut fresh) = (DStarLite::default(), AStar::default());
+        planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        for step in 0..20 {
+            if rng.random_bool(0.8) {
+                planner.settle(&problem, &mut Context::seeded(0));
+            }
+            let mut changes = random_batch(&mut rng, &problem, 10);
+            changes.retain(|change| !matches!(change, GridChange::GoalMoved(_)));
+            let cells = problem.grid().layout().cells();
+            let goal = cells.filter(|_| rng.random_bool(0.001)).last();
+            changes.extend(goal.map(GridChange::GoalMoved));
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            exact(&problem, &changes, &report, format_args!("{round}, {step}"));
+            count(&mut ways, &report);
+            if report.note("replanned") == Some("jumped") {
+                let other = fresh.plan(&problem, &mut Context::seeded(0)).unwrap();
+                expanded[0] += report.stats.expanded;
+                expanded[1] += other.stats.expanded;
+            }
+        }
+    }
+    often(&ways, &[("jumped", 100)]);
+    let [jumped, afresh] = expanded;
+    assert!(jumped * 4 < afresh, "{jumped} of {afresh}");
+}
+
 /// Both learn; the choice also joins what is left of its path.
 #[test]
 fn a_join_spares_expansions() {

@@ -11,18 +11,23 @@ const PATIENT: u64 = 16;
 const CURIOUS: u64 = 4;
 /// With less patience than that it is not begun.
 const CURT: u64 = 8;
-/// Their bits are made once answers have expanded one cell in so many of the map's: it takes about as long.
+/// Their bits are made once answers have expanded one cell in so many of the map's, as more are to come,
 const BITS: u64 = 512;
+/// or a plan one in so many: they take about as long, and a goal that moves no longer takes another plan.
+const PLAN: u64 = 32;
 /// They are made anew where more cells than that change at once.
 const MANY: usize = 256;
 
 impl DStarLite {
     /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
-    /// its way with those.
+    /// its way with those, and none to a goal to which no distances are known.
     pub(super) fn forbearance(&self, problem: &GridProblem) -> u64 {
         let is_ready = news(&self.pending, self.behind).is_some() && self.auto.has_jumps();
         if !is_ready || !problem.grid().is_uniform() {
             return u64::MAX;
+        }
+        if !self.knows(problem) {
+            return 0;
         }
         let most = match self.jump_effort {
             0 if self.debt > self.effort / CURIOUS => 0,
@@ -80,8 +85,8 @@ impl DStarLite {
 
     /// Makes the bits of jump points or follows what has changed with them, if there is reason to.
     pub(super) fn prepare_jumps(&mut self, problem: &GridProblem) {
-        let worth = problem.grid().layout().len() as u64 / BITS;
-        if !self.auto.is_in_use() && self.debt <= worth {
+        let cells = problem.grid().layout().len() as u64;
+        if !self.auto.is_in_use() && self.debt <= cells / BITS && self.effort <= cells / PLAN {
             return;
         }
         self.catch_up(problem);

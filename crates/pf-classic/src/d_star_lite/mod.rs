@@ -46,8 +46,8 @@ params!(DStarLiteParams {
 /// little. An answer comes in one of five ways; the note `replanned` says which: `kept`, where the
 /// last path is still best; `searched`, by a search from the robot that ends where distances are
 /// known; `jumped`, by jump points where such searches take long, as on a map of which little is
-/// known yet; `repaired`, from repaired distances; `afresh`, where nothing of use is known, as for a
-/// moved goal. One iteration is one expansion.
+/// known yet or to a goal that moved; `repaired`, from repaired distances; `afresh`, where nothing of use
+/// is known. One iteration is one expansion.
 ///
 /// ```
 /// use pf_core::{Context, Planner, Problem, Replanner};
@@ -260,6 +260,11 @@ impl DStarLite {
             );
         }
         found
+    }
+
+    /// Whether distances to the goal are known, of this problem or of one that it came from.
+    fn knows(&self, problem: &GridProblem) -> bool {
+        guided!(&self.width, guided => guided.knows(problem))
     }
 
     /// A search that gave up learns what it was to find.

@@ -51,15 +51,13 @@ impl JumpMap {
         let turned = (layout.width() as usize + 2) * self.pitch as usize + 1;
         // Where all is free around a cell, scans in some directions stop at each, in others at none.
         let open = self.forced[0xff];
-        for (k, stops) in self.stops.iter_mut().enumerate() {
-            let in_rows = k.is_multiple_of(2);
-            let ids = if in_rows { layout.len() } else { turned };
+        for (k, ids) in [layout.len(), turned].into_iter().enumerate() {
+            let stops = &mut self.stops[k];
             stops.clear();
             stops.resize(ids / 64 + 1, u64::MAX);
             if open >> k & 1 == 1 {
-                continue;
-            }
-            if in_rows {
+                // It is so in both directions.
+            } else if k == 0 {
                 for (first, word) in (0..).step_by(64).zip(stops) {
                     *word = !grid.free_bits(first);
                 }
@@ -67,6 +65,9 @@ impl JumpMap {
                 clear_columns(stops, grid, self.pitch);
             }
         }
+        let [east, south, west, north] = &mut self.stops;
+        west.clone_from(east);
+        north.clone_from(south);
         // Cells that are free, as are both beside them in their row.
         #[expect(clippy::cast_possible_truncation, reason = "ids")]
         let firsts = (0..layout.len() as u32).step_by(64);
