@@ -75,14 +75,11 @@ pub(crate) fn run(args: &Args, counter: Option<Counter>) -> Result<()> {
             if group.contenders.is_empty() {
                 continue;
             }
-            let name = case.under(moves);
-            let mut told = bench(
-                &name,
-                &case.grid,
-                Some(&case.scen),
-                &case.spread(args.limit),
-                group,
-            )?;
+            let mut round = Round::of(group);
+            for row in case.spread(args.limit) {
+                round.ask(&case.grid, Some(&case.scen), row)?;
+            }
+            let mut told = round.rows(&case.under(moves));
             for row in &mut told {
                 taken.fill_in(row);
             }
@@ -109,23 +106,33 @@ pub(crate) fn run(args: &Args, counter: Option<Counter>) -> Result<()> {
     Ok(())
 }
 
-/// What all of a group take for the queries, a row each; `scen` states optima.
-fn bench(
-    case: &str,
-    grid: &Arc<Grid>,
-    scen: Option<&Scen>,
-    queries: &[&ScenRow],
-    mut group: Group,
-) -> Result<Vec<Row>> {
-    let count = group.contenders.len();
-    let mut tallies = vec![Tally::default(); count];
-    let stated = scen.filter(|_| group.moves == RULES[0]);
-    for (asked, row) in queries.iter().enumerate() {
+/// Whom queries are asked, and what they took so far.
+struct Round {
+    group: Group,
+    tallies: Vec<Tally>,
+    asked: usize,
+}
+
+impl Round {
+    fn of(group: Group) -> Self {
+        let tallies = vec![Tally::default(); group.contenders.len()];
+        Self {
+            group,
+            tallies,
+            asked: 0,
+        }
+    }
+
+    /// Asks all of them; `scen` states optima.
+    fn ask(&mut self, grid: &Arc<Grid>, scen: Option<&Scen>, row: &ScenRow) -> Result<()> {
+        let Self { group, tallies, .. } = self;
+        let stated = scen.filter(|_| group.moves == RULES[0]);
+        let count = tallies.len();
         let problem = GridProblem::new(Arc::clone(grid), row.start, row.goal)?;
         let problem = problem.with_moves(group.moves);
         let mut least = vec![Duration::MAX; count];
         let mut answers = vec![None; count];
-        for k in (0..count).map(|k| (asked + k) % count) {
+        for k in (0..count).map(|k| (self.asked + k) % count) {
             let one = &mut group.contenders[k];
             for _ in 0..REPETITIONS {
                 one.prepare();
@@ -135,7 +142,10 @@ fn bench(
                 answers[k].get_or_insert(answer);
             }
         }
-        let Some(first) = answers[0] else { continue };
+        self.asked += 1;
+        let Some(first) = answers.first().copied().flatten() else {
+            return Ok(());
+        };
         for (k, answer) in answers.into_iter().flatten().enumerate() {
             let as_stated = match (stated, answer.cost) {
                 (Some(scen), Some(cost)) => scen.agrees(row, cost.value()),
@@ -147,16 +157,20 @@ fn bench(
             tally.unsolved += u64::from(answer.cost.is_none());
             tally.mismatches += u64::from(!as_stated || !group.agrees(k, answer, first));
         }
+        Ok(())
     }
-    let moves = group.moves.name();
-    let rows = tallies.iter().zip(&group.contenders);
-    Ok(rows
-        .map(|(tally, one)| Row {
+
+    /// A row each.
+    fn rows(&self, case: &str) -> Vec<Row> {
+        let moves = self.group.moves.name();
+        let rows = self.tallies.iter().zip(&self.group.contenders);
+        rows.map(|(tally, one)| Row {
             kind: moves,
             moves: Some(moves),
             ..tally.row(case, one.name())
         })
-        .collect())
+        .collect()
+    }
 }
 
 fn header() -> Result<()> {
