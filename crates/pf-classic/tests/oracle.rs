@@ -262,6 +262,35 @@ fn d_star_lite_is_exact_where_terrain_comes_and_goes() {
     often(&ways, &[("searched", 500), ("jumped", 200)]);
 }
 
+/// Much changes around the robot, again and again, under every move rule, with terrain and without.
+#[test]
+fn d_star_lite_is_exact_where_walls_close_around_the_robot() {
+    let mut rng = seeded(39);
+    let mut ways = BTreeMap::new();
+    for round in 0..200 {
+        let recipe = Recipe::any(&mut rng, 30..=90);
+        let mut problem = random_problem(&mut rng, &recipe);
+        let mut planner = DStarLite::default();
+        planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        for step in 0..6 {
+            planner.settle(&problem, &mut Context::seeded(0));
+            let robot = problem.start();
+            let is_near = |cell: &Cell| cell.x.abs_diff(robot.x).max(cell.y.abs_diff(robot.y)) < 20;
+            let cells = problem.grid().layout().cells().filter(is_near);
+            let share = rng.random_range(0.2..0.6);
+            let flipped = cells.filter(|&cell| cell != robot && rng.random_bool(share));
+            let (blocked, freed): (Vec<_>, _) =
+                flipped.partition(|&cell| problem.grid().is_free(cell));
+            let changes = [GridChange::Blocked(blocked), GridChange::Freed(freed)];
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            exact(&problem, &changes, &report, format_args!("{round}, {step}"));
+            count(&mut ways, &report);
+        }
+    }
+    often(&ways, &[("shut in", 100), ("searched", 100)]);
+}
+
 /// A goal that moves at every step, most of the steps settled, while a few cells change.
 #[test]
 fn d_star_lite_jumps_to_a_goal_that_moves() {

@@ -10,7 +10,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{GridChange, GridProblem, LastPath};
+use pf_grid::{Confines, GridChange, GridProblem, LastPath};
 
 /// When to repair and when to start over.
 #[derive(Clone, Debug, PartialEq)]
@@ -43,11 +43,12 @@ params!(DStarLiteParams {
 /// Replans with the distances to the goal, repaired where a change matters to the robot.
 ///
 /// The distances are rooted at the goal, so a robot that moves and sees changes near itself costs
-/// little. An answer comes in one of five ways; the note `replanned` says which: `kept`, where the
+/// little. An answer comes in one of six ways; the note `replanned` says which: `kept`, where the
 /// last path is still best; `searched`, by a search from the robot that ends where distances are
 /// known; `jumped`, by jump points where such searches take long, as on a map of which little is
-/// known yet or to a goal that moved; `repaired`, from repaired distances; `afresh`, where nothing of use
-/// is known. One iteration is one expansion.
+/// known yet or to a goal that moved; `shut in`, where much changed and a look around the robot finds no way
+/// out; `repaired`, from repaired distances; `afresh`, where nothing of use is known. One iteration is one
+/// expansion.
 ///
 /// ```
 /// use pf_core::{Context, Planner, Problem, Replanner};
@@ -99,6 +100,7 @@ pub struct DStarLite {
     /// Its path, which needs none of the above while nothing but the robot's place and blocked cells
     /// change.
     last_path: LastPath,
+    confines: Confines,
 }
 
 #[derive(Clone, Debug)]
@@ -117,6 +119,9 @@ impl Default for Width {
 /// So many times the expansions of a plan may be spent on answers before the distances are made
 /// right: it takes about as long.
 const DEBT: u64 = 3;
+/// From so many changed cells on, what they did to the distances takes longer to say than whether there is a way out
+/// at all: half as many cells are looked at for that.
+const MUCH: u64 = 256;
 
 /// The same for whichever width is in use.
 macro_rules! guided {
@@ -151,6 +156,7 @@ impl DStarLite {
         guided!(&self.width, guided => guided.bytes())
             + self.pending.capacity() * size_of::<u32>()
             + self.last_path.bytes()
+            + self.confines.bytes()
             + self.auto.bytes()
     }
 
@@ -260,6 +266,12 @@ impl DStarLite {
             );
         }
         found
+    }
+
+    /// Whether much changed, and is seen to leave no way out.
+    fn is_shut_in(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
+        let news = (self.pending.len() - self.told) as u64;
+        news >= MUCH && cx.at_most(news / 2, |cx| self.confines.hold(problem, cx))
     }
 
     /// Whether distances to the goal are known, of this problem or of one that it came from.
@@ -398,13 +410,17 @@ impl Replanner<GridProblem> for DStarLite {
             };
             return Ok(self.report(problem, found, cx));
         }
-        let found = match self.last {
-            Some((stamp, found)) if stamp == problem.stamp() => {
-                cx.note("replanned", "kept");
-                found
-            }
-            _ if self.jumps_at_once(problem) => return self.jump(problem, false, cx),
-            _ => self.answer(problem, cx),
+        let known = self.last.filter(|&(stamp, _)| stamp == problem.stamp());
+        let found = if let Some((_, found)) = known {
+            cx.note("replanned", "kept");
+            found
+        } else if self.is_shut_in(problem, cx) {
+            cx.note("replanned", "shut in");
+            Found::Nothing
+        } else if self.jumps_at_once(problem) {
+            return self.jump(problem, false, cx);
+        } else {
+            self.answer(problem, cx)
         };
         if found == Found::GaveUp {
             return self.jump(problem, true, cx);
