@@ -1,93 +1,161 @@
 //! Whether walls have closed around the robot.
 
-use crate::{DIRECTIONS, GridProblem, Moves};
+use crate::{Cell, Grid, GridProblem, Moves};
 use pf_core::Context;
 
 /// So far around the start is looked: two such and the start fit a row of bits.
 const REACH: u32 = 63;
-/// The last column or row there is, of a square around the start.
+/// The last row or column there is, of a square around the start.
 const LAST: u32 = 2 * REACH;
+/// Bits of the first and the last column.
+const SIDES: u128 = 1 | 1 << LAST;
 
-/// Proves that there is no way out, where that takes few steps: a search that only asks what can be reached takes
-/// a third of the time of one that asks how far it is.
+/// Proves that there is no way out, where that takes little: row by row it asks only what can be reached, which
+/// takes a fraction of the time of a search that asks how far it is.
 ///
 /// ```
 /// use pf_core::Context;
-/// use pf_grid::{Cell, Confines, Grid, GridProblem};
+/// use pf_grid::{Cell, Confines, Grid, GridProblem, Moves};
 ///
 /// let grid = Grid::parse("
 ///     ..#..
 ///     .#...
 ///     #....
 /// ").unwrap();
-/// let mut problem = GridProblem::new(grid, Cell::new(0, 0), Cell::new(4, 2)).unwrap();
+/// let problem = GridProblem::new(grid, Cell::new(0, 0), Cell::new(4, 2)).unwrap();
 /// let mut cx = Context::seeded(0);
 /// assert!(Confines::default().hold(&problem, &mut cx));
 /// assert_eq!(cx.stats().expanded, 3);
 ///
-/// problem = problem.with_moves(pf_grid::Moves::Always);
+/// let problem = problem.with_moves(Moves::Always);
 /// assert!(!Confines::default().hold(&problem, &mut Context::seeded(0)));
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Confines {
-    /// By row of the square a bit for each column: what was reached.
-    reached: Vec<u128>,
-    /// Of these the ids that were not yet left.
-    open: Vec<u32>,
+    /// The rows of the square.
+    rows: Vec<Row>,
+}
+
+/// A bit for each cell of a row.
+#[derive(Clone, Copy, Debug)]
+struct Row {
+    free: u128,
+    /// The same, the last bit first.
+    turned: u128,
+    /// What can be reached: whole runs of free cells.
+    reached: u128,
+}
+
+impl Row {
+    fn of(free: u128) -> Self {
+        Self {
+            free,
+            turned: free.reverse_bits(),
+            reached: 0,
+        }
+    }
+
+    /// Reaches free cells, and all that is free beside them. A sum carries from each to the end of its run.
+    fn reach(&mut self, cells: u128) {
+        let after = |free: u128, cells: u128| (free ^ free.wrapping_add(cells)) & free | cells;
+        let before = after(self.turned, cells.reverse_bits()).reverse_bits();
+        self.reached |= before | after(self.free, cells);
+    }
 }
 
 impl Confines {
+    /// Whether a cell lies so near a start that it is looked at, if it can be reached.
+    #[must_use]
+    pub fn are_around(start: Cell, cell: Cell) -> bool {
+        cell.x.abs_diff(start.x).max(cell.y.abs_diff(start.y)) <= REACH
+    }
+
     /// Whether nothing but a few cells can be reached from a free start, and the goal is none of them. `false` where
-    /// a way leads far, and where the budget ends before that is known. One iteration is one cell.
+    /// a way leads far, and where the budget ends before that is known. One iteration is one row looked at.
     pub fn hold(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
-        let (grid, moves) = (problem.grid(), problem.moves());
-        let layout = grid.layout();
-        let (offsets, goal) = (layout.offsets(), layout.id(problem.goal()));
-        let start = layout.id(problem.start());
-        let (x0, y0) = layout.position(start);
+        let layout = problem.grid().layout();
+        let place = |cell| layout.position(layout.id(cell));
+        let (x0, y0) = place(problem.start());
+        self.read(problem.grid(), (x0, y0));
+        let goal = problem.goal();
+        let goal = Self::are_around(problem.start(), goal).then(|| {
+            let (x, y) = place(goal);
+            (y + REACH - y0, 1 << (x + REACH - x0))
+        });
+        let leads_out = |at: u32, reached: u128| {
+            let is_goal = |(row, bit)| at == row && reached & bit != 0;
+            matches!(at, 0 | LAST) || reached & SIDES != 0 || goal.is_some_and(is_goal)
+        };
         // Where one of the two cells beside a diagonal step has to be free, the way over that one is as good.
-        let asked = if moves == Moves::Always { 0xff } else { 0x0f };
-        self.reached.clear();
-        self.reached.resize(LAST as usize + 1, 0);
-        self.reached[REACH as usize] = 1 << REACH;
-        self.open.clear();
-        self.open.push(start);
-        // The last one first: that leads far soon, if anything does.
-        while let Some(id) = self.open.pop() {
-            let (x, y) = layout.position(id);
-            let (column, row) = (x + REACH - x0, y + REACH - y0);
-            let is_far = [column, row].iter().any(|at| matches!(*at, 0 | LAST));
-            if id == goal || is_far || !cx.proceed() {
-                return false;
-            }
-            cx.expanded(|| layout.cell(id));
-            let mut ways = moves.legal(grid.around_id(id)) & asked;
-            while ways != 0 {
-                let k = ways.trailing_zeros() as usize;
-                ways &= ways - 1;
-                let (dx, dy) = DIRECTIONS[k];
-                let row = &mut self.reached[row.wrapping_add_signed(dy) as usize];
-                let bit = 1 << column.wrapping_add_signed(dx);
-                if *row & bit == 0 {
-                    *row |= bit;
-                    self.open.push(id.wrapping_add_signed(offsets[k]));
+        let is_aslant = problem.moves() == Moves::Always;
+        let middle = &mut self.rows[REACH as usize];
+        middle.reach(1 << REACH);
+        if leads_out(REACH, middle.reached) {
+            return false;
+        }
+        loop {
+            let mut is_new = false;
+            let down = (0..LAST).map(|at| (at, at + 1));
+            let up = (1..=LAST).rev().map(|at| (at, at - 1));
+            for (from, to) in down.chain(up) {
+                let reached = self.rows[from as usize].reached;
+                if reached == 0 {
+                    continue;
+                }
+                if !cx.proceed() {
+                    return false;
+                }
+                let aslant = [reached << 1, reached >> 1];
+                let beside = if is_aslant { aslant } else { [0; 2] };
+                let row = &mut self.rows[to as usize];
+                let cells = (reached | beside[0] | beside[1]) & row.free & !row.reached;
+                if cells == 0 {
+                    continue;
+                }
+                is_new = true;
+                row.reach(cells);
+                if leads_out(to, row.reached) {
+                    return false;
                 }
             }
+            if !is_new {
+                let counts = self.rows.iter().map(|row| row.reached.count_ones());
+                cx.visited(u64::from(counts.sum::<u32>()));
+                return true;
+            }
         }
-        true
+    }
+
+    /// Reads the rows around a place.
+    fn read(&mut self, grid: &Grid, (x0, y0): (u32, u32)) {
+        let layout = grid.layout();
+        // Where the map begins within the square, what lies before is blocked.
+        let (first, shift) = (x0.saturating_sub(REACH), REACH.saturating_sub(x0));
+        // What follows a row of the map is the next one.
+        let width = layout.pitch() - first;
+        let within = u128::MAX >> 128u32.saturating_sub(width) << shift & u128::MAX >> 1;
+        let row = |at: u32| {
+            let y = (y0 + at).checked_sub(REACH)?;
+            let id = (y <= layout.height()).then(|| layout.id_at((first, y)))?;
+            let bits = [id, id + 64].map(|id| u128::from(grid.free_bits(id)));
+            Some((bits[0] | bits[1] << 64) << shift & within)
+        };
+        self.rows.clear();
+        let rows = (0..=LAST).map(|at| Row::of(row(at).unwrap_or(0)));
+        self.rows.extend(rows);
     }
 
     /// Bytes held.
     #[must_use]
     pub fn bytes(&self) -> usize {
-        self.reached.capacity() * size_of::<u128>() + self.open.capacity() * size_of::<u32>()
+        self.rows.capacity() * size_of::<Row>()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{Cell, Grid, Moves};
+    use crate::Grid;
     use pf_core::Budget;
 
     /// A square room with its walls so far from the robot, in the middle of a large map and in its corner.

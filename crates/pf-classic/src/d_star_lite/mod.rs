@@ -120,8 +120,12 @@ impl Default for Width {
 /// right: it takes about as long.
 const DEBT: u64 = 3;
 /// From so many changed cells on, what they did to the distances takes longer to say than whether there is a way out
-/// at all: half as many cells are looked at for that.
-const MUCH: u64 = 256;
+/// at all,
+const MUCH: usize = 256;
+/// where most of so many of them lie around the robot,
+const SAMPLE: usize = 16;
+/// and no more than so many rows are looked at.
+const ROWS: u64 = 1 << 10;
 
 /// The same for whichever width is in use.
 macro_rules! guided {
@@ -268,10 +272,17 @@ impl DStarLite {
         found
     }
 
-    /// Whether much changed, and is seen to leave no way out.
+    /// Whether much changed around the robot, and is seen to leave no way out.
     fn is_shut_in(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
-        let news = (self.pending.len() - self.told) as u64;
-        news >= MUCH && cx.at_most(news / 2, |cx| self.confines.hold(problem, cx))
+        let news = &self.pending[self.told..];
+        if news.len() < MUCH {
+            return false;
+        }
+        let (layout, robot) = (problem.grid().layout(), problem.start());
+        let sample = news.iter().step_by(news.len() / SAMPLE).take(SAMPLE);
+        let is_near = |&&id: &&u32| Confines::are_around(robot, layout.cell(id));
+        let near = sample.filter(is_near).count();
+        near > SAMPLE / 2 && cx.at_most(ROWS, |cx| self.confines.hold(problem, cx))
     }
 
     /// Whether distances to the goal are known, of this problem or of one that it came from.
