@@ -60,11 +60,19 @@ impl<W: Word> Damage<W> {
     ) -> bool {
         let grid = problem.grid();
         let layout = grid.layout();
+        // Freed cells come last, mostly.
+        let opened = changed.iter().rev().any(|&id| grid.is_free_id(id));
+        let most = FEW_PLACES + PLACES_EACH * changed.len();
         let mut window = None;
-        let mut opened = false;
-        for &id in changed {
-            Window::hold(&mut window, layout.position(id));
-            opened |= grid.is_free_id(id);
+        for batch in changed.chunks(MOST_SPREAD) {
+            for &id in batch {
+                Window::hold(&mut window, layout.position(id));
+            }
+            if changed.len() > MOST_SPREAD && window.is_some_and(|all| all.places() > most) {
+                // However much larger it is yet.
+                window = Some(Window::whole(layout));
+                break;
+            }
         }
         // Their neighbours, too, within the border.
         let Some(window) = window.filter(|_| opened).map(Window::grown) else {
@@ -73,7 +81,6 @@ impl<W: Word> Damage<W> {
             }
             return false;
         };
-        let most = FEW_PLACES + PLACES_EACH * changed.len();
         let all = &mut self.openings;
         let room = if all.is_empty() && !all.has_places {
             window.places()

@@ -1,6 +1,6 @@
 //! A rectangle of places that grows.
 
-use crate::Cell;
+use crate::{Cell, Layout};
 
 /// Columns and rows, first and last.
 #[derive(Clone, Copy, Debug, Default)]
@@ -10,6 +10,14 @@ pub(crate) struct Window {
 }
 
 impl Window {
+    /// All cells.
+    pub(crate) fn whole(layout: &Layout) -> Self {
+        Self {
+            columns: [1, layout.width()],
+            rows: [1, layout.height()],
+        }
+    }
+
     /// Grows to hold a place.
     pub(crate) fn hold(window: &mut Option<Self>, (x, y): (u32, u32)) {
         let all = window.get_or_insert(Self {

@@ -171,6 +171,15 @@ impl<W: Word> Distances<W> {
         }
     }
 
+    /// Appends the ids of a plan's path from one on to the goal, if they are of a plan.
+    pub(super) fn trace(&self, id: u32, ids: &mut Vec<u32>) -> bool {
+        if self.planned.is_some() {
+            ids.push(id);
+            ids.extend(self.search.back(id).map(|(from, ..)| from));
+        }
+        self.planned.is_some()
+    }
+
     /// See [`DistanceField::next`].
     pub(super) fn next(&self, problem: &GridProblem, id: u32, left: W) -> Option<(u32, W)> {
         if self.planned.is_some() {

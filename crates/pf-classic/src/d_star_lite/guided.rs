@@ -172,7 +172,14 @@ impl<W: Word> Guided<W> {
         let start = layout.id(problem.start());
         match self.distances.settled() {
             Some((_, whole)) if whole < W::MAX => {
-                self.go_down(problem, start, whole);
+                self.tail.clear();
+                if self.distances.trace(start, &mut self.tail) {
+                    let goal = self.tail.pop().unwrap_or(start);
+                    self.route.restart(goal, layout.cell(goal));
+                    self.come_up(problem, goal, W::default());
+                } else {
+                    self.go_down(problem, start, whole);
+                }
                 Found::Path
             }
             _ => Found::Nothing,
@@ -393,6 +400,12 @@ impl<W: Word> Guided<W> {
             id = next;
             left = left - weight;
         }
+        self.come_up(problem, id, left);
+    }
+
+    /// Puts the tail before the route, which begins at an id from which so much is left.
+    fn come_up(&mut self, problem: &GridProblem, mut id: u32, mut left: W) {
+        let layout = *problem.grid().layout();
         let weights = self
             .basis
             .map_or(Weights::of(problem.grid()), |(_, weights)| weights);
