@@ -19,6 +19,7 @@ mod worlds;
 
 use anyhow::Result;
 use clap::Parser;
+use std::io;
 
 /// Benchmarks of pf's planners
 #[derive(Parser)]
@@ -65,7 +66,7 @@ pub type Counter = fn(&mut dyn FnMut()) -> Counted;
 /// # Errors
 /// If a file cannot be read, an option makes no sense, or answers do not agree.
 pub fn run(counter: Option<Counter>) -> Result<()> {
-    match Cli::parse().suite {
+    let told = match Cli::parse().suite {
         Suite::Drive(args) => drive::run(&args),
         Suite::Fronts(args) => fronts::run(&args),
         Suite::Grid(args) => grid::run(&args, counter),
@@ -74,5 +75,10 @@ pub fn run(counter: Option<Counter>) -> Result<()> {
         Suite::Walk(args) => walk::run(&args, counter),
         Suite::Waypoints(args) => waypoints::run(&args),
         Suite::Worlds(args) => worlds::run(&args),
-    }
+    };
+    // Whoever reads no further has seen enough.
+    told.or_else(|error| match error.downcast_ref::<io::Error>() {
+        Some(broken) if broken.kind() == io::ErrorKind::BrokenPipe => Ok(()),
+        _ => Err(error),
+    })
 }

@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::{
     fmt::Write as _,
     fs,
-    process::{Command, Output},
+    process::{Command, Output, Stdio},
 };
 
 /// A folder with a map of 40 x 30 cells, a few walls in it, and two queries.
@@ -27,10 +27,14 @@ fn folder(first_optimum: &str) -> tempfile::TempDir {
     folder
 }
 
-fn bench(folder: &tempfile::TempDir, args: &[&str]) -> Output {
+fn command(folder: &tempfile::TempDir, args: &[&str]) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_pf-bench"));
     command.args(args).arg("--maps").arg(folder.path());
-    command.output().unwrap()
+    command
+}
+
+fn bench(folder: &tempfile::TempDir, args: &[&str]) -> Output {
+    command(folder, args).output().unwrap()
 }
 
 #[track_caller]
@@ -66,6 +70,22 @@ fn grid_compares_with_peers_and_counts_allocations() {
         assert_eq!(of(peer)["mismatches"], 0);
     }
     assert_eq!(of("grid_pathfinding::jps")["case"], "small, always");
+}
+
+/// As `head` does.
+#[test]
+fn a_reader_may_stop_reading() {
+    let folder = folder("3.00000");
+    let mut command = command(&folder, &["grid", "--planner", "astar"]);
+    let mut child = command
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .unwrap();
+    drop(child.stdout.take());
+    let output = child.wait_with_output().unwrap();
+    let err = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success() && err.is_empty(), "{err}");
 }
 
 #[test]

@@ -451,7 +451,9 @@ impl Replanner<GridProblem> for DStarLite {
         if !cx.proceed() {
             return;
         }
-        self.prepare_jumps(problem);
+        if !self.params.eager {
+            self.prepare_jumps(problem);
+        }
         if self.debt > DEBT * self.effort.max(1000)
             && !is_hopeless(problem)
             && self.repair(problem, cx).is_none()
