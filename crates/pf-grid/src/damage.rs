@@ -61,7 +61,12 @@ impl<W: Word> Damage<W> {
         let grid = problem.grid();
         let layout = grid.layout();
         // Freed cells come last, mostly.
-        let opened = changed.iter().rev().any(|&id| grid.is_free_id(id));
+        if !changed.iter().rev().any(|&id| grid.is_free_id(id)) {
+            for &id in changed {
+                self.hold_below(problem, id, weights, &before);
+            }
+            return false;
+        }
         let most = FEW_PLACES + PLACES_EACH * changed.len();
         let mut window = None;
         for batch in changed.chunks(MOST_SPREAD) {
@@ -75,10 +80,7 @@ impl<W: Word> Damage<W> {
             }
         }
         // Their neighbours, too, within the border.
-        let Some(window) = window.filter(|_| opened).map(Window::grown) else {
-            for &id in changed {
-                self.hold_below(problem, id, weights, &before);
-            }
+        let Some(window) = window.map(Window::grown) else {
             return false;
         };
         let all = &mut self.openings;

@@ -272,9 +272,14 @@ impl DStarLite {
         found
     }
 
-    /// Whether much changed around the robot, and is seen to leave no way out.
-    fn is_shut_in(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
-        let news = &self.pending[self.told..];
+    /// Whether much has just changed around the robot, in so many of the pending cells, and is seen to leave no way out.
+    fn is_shut_in(
+        &mut self,
+        problem: &GridProblem,
+        news: usize,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> bool {
+        let news = &self.pending[self.pending.len() - news..];
         if news.len() < MUCH {
             return false;
         }
@@ -382,6 +387,7 @@ impl Replanner<GridProblem> for DStarLite {
             return self.plan(problem, cx);
         };
         let layout = problem.grid().layout();
+        let before = self.pending.len();
         for change in changes {
             match change {
                 GridChange::Blocked(cells)
@@ -393,6 +399,7 @@ impl Replanner<GridProblem> for DStarLite {
                 GridChange::StartMoved(_) | GridChange::GoalMoved(_) => {}
             }
         }
+        let news = self.pending.len() - before;
         self.known = Some(problem.stamp());
         self.opened |= flipped(changes).1;
         if self.pending.len() > layout.len() {
@@ -425,7 +432,7 @@ impl Replanner<GridProblem> for DStarLite {
         let found = if let Some((_, found)) = known {
             cx.note("replanned", "kept");
             found
-        } else if self.is_shut_in(problem, cx) {
+        } else if self.is_shut_in(problem, news, cx) {
             cx.note("replanned", "shut in");
             Found::Nothing
         } else if self.jumps_at_once(problem) {
