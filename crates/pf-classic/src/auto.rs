@@ -174,9 +174,11 @@ impl Auto {
         opened: bool,
     ) {
         let grid = problem.grid();
+        let jumps = self.has_jumps();
         let count = &mut self.changed;
         let cells = cells.inspect(|_| *count += 1);
-        if self.jps.is_known(self.known) {
+        // Bits that nobody asks for are made anew, should that change.
+        if jumps && self.jps.is_known(self.known) {
             self.jps.catch_up(problem, cells, opened);
         } else {
             cells.for_each(drop);

@@ -330,6 +330,31 @@ fn d_star_lite_jumps_to_a_goal_that_moves() {
     assert!(jumped * 4 < afresh, "{jumped} of {afresh}");
 }
 
+/// A budget that a plan to where the goal moved breaks is enough for jump points, once there are bits.
+#[test]
+fn d_star_lite_jumps_where_a_plan_was_cut() {
+    let gap = |x: u32| if x.is_multiple_of(32) { 0 } else { 255 };
+    let is_wall = |cell: Cell| cell.x % 16 == 8 && cell.y != gap(cell.x - 8);
+    let grid = Grid::new(256, 256, |cell| u8::from(!is_wall(cell))).unwrap();
+    let mut problem = GridProblem::new(grid, Cell::new(0, 128), Cell::new(4, 128)).unwrap();
+    let mut planner = DStarLite::default();
+    planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+    planner.settle(&problem, &mut Context::seeded(0));
+    let mut ask = |changes: &[GridChange]| {
+        let revision = problem.revise(changes).unwrap();
+        let budget = Budget::unlimited().iterations(5000);
+        let mut cx = Context::seeded(0).within(budget);
+        let report = planner.replan(&revision, &mut cx).unwrap();
+        planner.settle(&problem, &mut Context::seeded(0));
+        report
+    };
+    let cut = ask(&[GridChange::GoalMoved(Cell::new(255, 128))]);
+    assert!(matches!(cut.outcome, Outcome::Unknown { .. }));
+    let jumped = ask(&[GridChange::StartMoved(Cell::new(1, 128))]);
+    assert_eq!(jumped.note("replanned"), Some("jumped"));
+    assert_eq!(proven(&problem, &jumped), oracle(&problem));
+}
+
 /// Both learn; the choice also joins what is left of its path.
 #[test]
 fn a_join_spares_expansions() {

@@ -1,7 +1,6 @@
 //! Whether walls have closed around the robot.
 
 use crate::{Cell, Grid, GridProblem, Moves};
-use pf_core::Context;
 
 /// So far around the start is looked: two such and the start fit a row of bits.
 const REACH: u32 = 63;
@@ -14,7 +13,6 @@ const SIDES: u128 = 1 | 1 << LAST;
 /// takes a fraction of the time of a search that asks how far it is.
 ///
 /// ```
-/// use pf_core::Context;
 /// use pf_grid::{Cell, Confines, Grid, GridProblem, Moves};
 ///
 /// let grid = Grid::parse("
@@ -23,12 +21,10 @@ const SIDES: u128 = 1 | 1 << LAST;
 ///     #....
 /// ").unwrap();
 /// let problem = GridProblem::new(grid, Cell::new(0, 0), Cell::new(4, 2)).unwrap();
-/// let mut cx = Context::seeded(0);
-/// assert!(Confines::default().hold(&problem, &mut cx));
-/// assert_eq!(cx.stats().expanded, 3);
+/// assert_eq!(Confines::default().measure(&problem, 100), Some(3));
 ///
 /// let problem = problem.with_moves(Moves::Always);
-/// assert!(!Confines::default().hold(&problem, &mut Context::seeded(0)));
+/// assert_eq!(Confines::default().measure(&problem, 100), None);
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct Confines {
@@ -70,9 +66,9 @@ impl Confines {
         cell.x.abs_diff(start.x).max(cell.y.abs_diff(start.y)) <= REACH
     }
 
-    /// Whether nothing but a few cells can be reached from a free start, and the goal is none of them. `false` where
-    /// a way leads far, and where the budget ends before that is known. One iteration is one row looked at.
-    pub fn hold(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
+    /// How many cells can be reached from a free start, if they are few and the goal is none of them. `None` where a
+    /// way leads far, and where that is not known after so many looks at a row.
+    pub fn measure(&mut self, problem: &GridProblem, mut looks: u32) -> Option<u32> {
         let layout = problem.grid().layout();
         let place = |cell| layout.position(layout.id(cell));
         let (x0, y0) = place(problem.start());
@@ -91,7 +87,7 @@ impl Confines {
         let middle = &mut self.rows[REACH as usize];
         middle.reach(1 << REACH);
         if leads_out(REACH, middle.reached) {
-            return false;
+            return None;
         }
         loop {
             let mut is_new = false;
@@ -102,9 +98,7 @@ impl Confines {
                 if reached == 0 {
                     continue;
                 }
-                if !cx.proceed() {
-                    return false;
-                }
+                looks = looks.checked_sub(1)?;
                 let aslant = [reached << 1, reached >> 1];
                 let beside = if is_aslant { aslant } else { [0; 2] };
                 let row = &mut self.rows[to as usize];
@@ -115,13 +109,12 @@ impl Confines {
                 is_new = true;
                 row.reach(cells);
                 if leads_out(to, row.reached) {
-                    return false;
+                    return None;
                 }
             }
             if !is_new {
                 let counts = self.rows.iter().map(|row| row.reached.count_ones());
-                cx.visited(u64::from(counts.sum::<u32>()));
-                return true;
+                return Some(counts.sum());
             }
         }
     }
@@ -156,7 +149,6 @@ impl Confines {
 mod tests {
     use super::*;
     use crate::Grid;
-    use pf_core::Budget;
 
     /// A square room with its walls so far from the robot, in the middle of a large map and in its corner.
     #[test]
@@ -176,13 +168,13 @@ mod tests {
                 let problem = problem.with_moves(moves);
                 let mut confines = Confines::default();
                 let closed = away < 64 && goal != robot;
+                // As far as the map goes.
+                let side = away + middle.min(away - 1);
                 for _ in 0..2 {
-                    let mut cx = Context::seeded(0);
-                    assert_eq!(confines.hold(&problem, &mut cx), closed, "{away} {moves:?}");
+                    let found = confines.measure(&problem, 1 << 10);
+                    assert_eq!(found, closed.then_some(side * side), "{away} {moves:?}");
                 }
-                let budget = Budget::unlimited().iterations(0);
-                let mut cx = Context::seeded(0).within(budget);
-                assert!(!confines.hold(&problem, &mut cx));
+                assert_eq!(confines.measure(&problem, 1), None);
             }
         }
     }

@@ -13,7 +13,7 @@ const CURIOUS: u64 = 4;
 const CURT: u64 = 8;
 /// Their bits are made once answers have expanded one cell in so many of the map's, as more are to come,
 const BITS: u64 = 512;
-/// or a plan one in so many: they take about as long, and a goal that moves no longer takes another plan.
+/// or a plan one in so many: they take about as long, and a goal that moves takes no other plan.
 const PLAN: u64 = 32;
 /// They are made anew where more cells than that change at once.
 const MANY: usize = 256;
@@ -44,7 +44,10 @@ impl DStarLite {
 
     /// Tells who jumps what is new.
     fn catch_up(&mut self, problem: &GridProblem) {
-        if let Some(news) = news(&self.pending, self.behind) {
+        // Who does not jump counts them only.
+        let all = self.behind.and_then(|behind| self.pending.get(behind..));
+        let all = all.filter(|_| !self.auto.has_jumps());
+        if let Some(news) = all.or(news(&self.pending, self.behind)) {
             let layout = problem.grid().layout();
             let cells = news.iter().map(|&id| layout.cell(id));
             self.auto.catch_up(problem, cells, self.opened);

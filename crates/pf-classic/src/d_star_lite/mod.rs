@@ -124,8 +124,8 @@ const DEBT: u64 = 3;
 const MUCH: usize = 256;
 /// where most of so many of them lie around the robot,
 const SAMPLE: usize = 16;
-/// and no more than so many rows are looked at.
-const ROWS: u64 = 1 << 10;
+/// and no more than so many looks at a row are taken: some 10 us.
+const LOOKS: u32 = 1 << 10;
 
 /// The same for whichever width is in use.
 macro_rules! guided {
@@ -287,12 +287,18 @@ impl DStarLite {
         let sample = news.iter().step_by(news.len() / SAMPLE).take(SAMPLE);
         let is_near = |&&id: &&u32| Confines::are_around(robot, layout.cell(id));
         let near = sample.filter(is_near).count();
-        near > SAMPLE / 2 && cx.at_most(ROWS, |cx| self.confines.hold(problem, cx))
+        if near <= SAMPLE / 2 || !cx.proceed() {
+            return false;
+        }
+        let cells = self.confines.measure(problem, LOOKS);
+        cells.inspect(|&cells| cx.visited(cells.into())).is_some()
     }
 
     /// Whether distances to the goal are known, of this problem or of one that it came from.
     fn knows(&self, problem: &GridProblem) -> bool {
-        guided!(&self.width, guided => guided.knows(problem))
+        guided!(&self.width, guided => {
+            guided.knows(problem) && guided.distances.settled().is_some()
+        })
     }
 
     /// A search that gave up learns what it was to find.
