@@ -342,10 +342,9 @@ fn d_star_lite_jumps_where_a_plan_was_cut() {
     planner.settle(&problem, &mut Context::seeded(0));
     let mut ask = |changes: &[GridChange]| {
         let revision = problem.revise(changes).unwrap();
-        let budget = Budget::unlimited().iterations(5000);
-        let mut cx = Context::seeded(0).within(budget);
-        let report = planner.replan(&revision, &mut cx).unwrap();
-        planner.settle(&problem, &mut Context::seeded(0));
+        let order = || Context::seeded(0).within(Budget::unlimited().iterations(5000));
+        let report = planner.replan(&revision, &mut order()).unwrap();
+        planner.settle(&problem, &mut order());
         report
     };
     let cut = ask(&[GridChange::GoalMoved(Cell::new(255, 128))]);

@@ -115,8 +115,7 @@ fn find<W: Word>(
         return None;
     }
     let end = if guided {
-        let octile = weights.octile(grid, problem.moves(), goal);
-        search.run(problem, start, Some(goal), octile, cx)
+        search.find(problem, cx)
     } else {
         search.run(problem, start, Some(goal), |_| W::default(), cx)
     };

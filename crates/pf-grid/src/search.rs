@@ -79,6 +79,16 @@ impl<W: Word> Search<W> {
         self.run_until(problem, start, |id| Some(heuristic(id)), arrive, cx)
     }
 
+    /// Searches from the problem's start to its goal: A\* by the octile heuristic.
+    ///
+    /// Source: Hart, Nilsson, Raphael, *A Formal Basis for the Heuristic Determination of Minimum Cost Paths*, 1968.
+    #[inline(never)]
+    pub fn find(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> End<W> {
+        let (grid, goal) = (problem.grid(), problem.goal());
+        let octile = Weights::of(grid).octile(grid, problem.moves(), goal);
+        self.run(problem, problem.start(), Some(goal), octile, cx)
+    }
+
     /// Searches from `start` until no path shorter than the best one known is possible.
     ///
     /// `heuristic` takes ids and bounds from below what is left to go; `None` if nothing leads on

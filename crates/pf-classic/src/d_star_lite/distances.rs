@@ -11,9 +11,9 @@ use pf_grid::{Cell, DistanceField, End, GridProblem, Layout, Search, Upkeep, Wei
 #[derive(Clone, Debug)]
 pub(super) struct Distances<W: Word> {
     layout: Option<Layout>,
-    /// Rooted at the goal.
+    /// A plan's, rooted at the goal; or, while nothing is known, one from the start.
     search: Search<W>,
-    /// While the search is what is known.
+    /// While it is a plan's.
     planned: Option<Planned<W>>,
     field: DistanceField<W>,
 }
@@ -64,6 +64,28 @@ impl<W: Word> Distances<W> {
         self.search.bytes() + self.field.bytes()
     }
 
+    /// Gives them up.
+    fn forget(&mut self) {
+        self.field.forget();
+        self.planned = None;
+    }
+
+    /// Gives them up for a search from the start, in the memory of the plan: what it touches is at hand.
+    pub(super) fn start_over(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> End<W> {
+        self.layout = Some(*problem.grid().layout());
+        self.forget();
+        self.search.find(problem, cx)
+    }
+
+    /// The steps on which that search reached an id, see [`Search::back`].
+    pub(super) fn way_back(&self, id: u32) -> impl Iterator<Item = (u32, W, u32)> + '_ {
+        self.search.back(id)
+    }
+
     /// Makes them anew, to answer from.
     pub(super) fn plan(
         &mut self,
@@ -71,8 +93,7 @@ impl<W: Word> Distances<W> {
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         self.layout = Some(*problem.grid().layout());
-        self.field.forget();
-        self.planned = None;
+        self.forget();
         let (grid, start) = (problem.grid(), problem.start());
         // Steps weigh the same both ways.
         let octile = Weights::of(grid).octile::<W>(grid, problem.moves(), start);

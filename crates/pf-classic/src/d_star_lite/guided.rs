@@ -26,7 +26,7 @@ pub(super) enum Way {
     Kept,
     /// A search from the start, directed by what was known.
     Searched,
-    /// Distances made anew.
+    /// Nothing of use was known.
     Afresh,
 }
 
@@ -47,6 +47,8 @@ pub(super) struct Guided<W: Word> {
     search: Search<W>,
     route: Route<W>,
     damage: Damage<W>,
+    /// An answer came without them, and they were not made since.
+    are_due: bool,
     /// What the changes are counted from: a goal and its weights.
     basis: Option<(Cell, Weights)>,
     /// Found out since anything last became free or cheaper: what is left to the basis' goal.
@@ -66,6 +68,7 @@ impl<W: Word> Default for Guided<W> {
             search: Search::default(),
             route: Route::default(),
             damage: Damage::default(),
+            are_due: false,
             basis: None,
             learned: Learned::default(),
             closed: Vec::new(),
@@ -168,6 +171,7 @@ impl<W: Word> Guided<W> {
         if self.distances.are_too_narrow(problem.start()) {
             return Found::TooFar;
         }
+        self.are_due = false;
         let layout = problem.grid().layout();
         let start = layout.id(problem.start());
         match self.distances.settled() {
@@ -217,7 +221,38 @@ impl<W: Word> Guided<W> {
                 return (found, Way::Searched);
             }
         }
-        (self.plan(problem, cx), Way::Afresh)
+        // If nobody has made the distances, an answer has to.
+        let found = if self.are_due {
+            self.plan(problem, cx)
+        } else {
+            self.start_over(problem, cx)
+        };
+        (found, Way::Afresh)
+    }
+
+    /// Whether the distances wait to be made.
+    pub(super) fn are_due(&self) -> bool {
+        self.are_due
+    }
+
+    /// Forgets all, and searches from the start: the distances to the goal are made later.
+    fn start_over(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
+        self.begin(problem);
+        self.are_due = true;
+        match self.distances.start_over(problem, cx) {
+            End::Goal(whole) => {
+                let layout = problem.grid().layout();
+                let goal = layout.id(problem.goal());
+                self.route.restart(goal, problem.goal());
+                for (id, g, _) in self.distances.way_back(goal) {
+                    self.route.extend(id, layout.cell(id), whole - g);
+                }
+                Found::Path
+            }
+            End::Exhausted => Found::Nothing,
+            End::Cut => Found::Cut,
+            End::TooFar => Found::TooFar,
+        }
     }
 
     fn note(&mut self, problem: &GridProblem, changed: &[u32]) {

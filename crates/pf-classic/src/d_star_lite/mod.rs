@@ -47,8 +47,8 @@ params!(DStarLiteParams {
 /// last path is still best; `searched`, by a search from the robot that ends where distances are
 /// known; `jumped`, by jump points where such searches take long, as on a map of which little is
 /// known yet or to a goal that moved; `shut in`, where much changed and a look around the robot finds no way
-/// out; `repaired`, from repaired distances; `afresh`, where nothing of use is known. One iteration is one
-/// expansion.
+/// out; `repaired`, from repaired distances; `afresh`, by a search of which nothing of use is known. One
+/// iteration is one expansion.
 ///
 /// ```
 /// use pf_core::{Context, Planner, Problem, Replanner};
@@ -454,8 +454,9 @@ impl Replanner<GridProblem> for DStarLite {
     }
 
     /// Lets a plan go on to what lies near the start, makes the bits of jump points or follows what has changed with
-    /// them, if there is reason to, and repairs the distances, or makes them anew, if answers have cost more than
-    /// that since they were last right: in iterations, an expansion each.
+    /// them, if there is reason to, makes the distances after an answer of which nothing was known, and repairs them,
+    /// or makes them anew, if answers have cost more than that since they were last right: in iterations, an
+    /// expansion each.
     fn settle(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
         if self.known != Some(problem.stamp()) || !cx.proceed() {
             return;
@@ -467,10 +468,17 @@ impl Replanner<GridProblem> for DStarLite {
         if !self.params.eager {
             self.prepare_jumps(problem);
         }
-        if self.debt > DEBT * self.effort.max(1000)
-            && !is_hopeless(problem)
-            && self.repair(problem, cx).is_none()
-        {
+        if is_hopeless(problem) {
+            return;
+        }
+        if guided!(&self.width, guided => guided.are_due()) {
+            if self.refresh(problem, false, cx) == Found::Cut {
+                // Answers to come can do without.
+                self.known = Some(problem.stamp());
+            } else {
+                guided!(&mut self.width, guided => guided.prepare(problem, cx));
+            }
+        } else if self.debt > DEBT * self.effort.max(1000) && self.repair(problem, cx).is_none() {
             self.refresh(problem, true, cx);
         }
     }
