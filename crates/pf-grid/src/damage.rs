@@ -123,6 +123,34 @@ impl<W: Word> Damage<W> {
         true
     }
 
+    /// Whether no way from a place over further changed cells, of which nothing is noted, weighs less than so much.
+    /// `before` says of a place, its column, row and id, what was left before anything changed, or a bound of it from
+    /// below.
+    pub fn spares(
+        problem: &GridProblem,
+        (from, weight): ((u32, u32), W),
+        changed: &[u32],
+        weights: Weights,
+        before: impl Fn((u32, u32), u32) -> W,
+    ) -> bool {
+        let grid = problem.grid();
+        let layout = grid.layout();
+        let apart: Apart<W> = weights.apart(problem.moves());
+        let is_spared = |place: (u32, u32)| {
+            let id = layout.id_at(place);
+            if !grid.is_free_id(id) {
+                return true;
+            }
+            let left = before(place, id);
+            let (dx, dy) = (place.0.abs_diff(from.0), place.1.abs_diff(from.1));
+            left >= weight || apart.by(dx, dy) + left >= weight
+        };
+        let freed = changed.iter().filter(|&&id| grid.is_free_id(id));
+        freed
+            .copied()
+            .all(|id| square(layout.position(id), 1).all(is_spared))
+    }
+
     fn hold_below(
         &mut self,
         problem: &GridProblem,

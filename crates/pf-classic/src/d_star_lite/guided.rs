@@ -2,7 +2,9 @@
 
 use super::distances::Distances;
 use pf_core::{Context, Outcome};
-use pf_grid::{Cell, Damage, End, GridProblem, Learned, Route, Search, Upkeep, Weights, Word};
+use pf_grid::{
+    Cell, Damage, End, GridCost, GridProblem, Learned, Route, Search, Upkeep, Weights, Word,
+};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -260,28 +262,63 @@ impl<W: Word> Guided<W> {
             return;
         };
         self.route.check(problem, changed, weights);
-        let (layout, apart) = (
-            *problem.grid().layout(),
-            weights.apart::<W>(problem.moves()),
-        );
-        let to = |cell: Cell| {
-            let (x, y) = layout.position(layout.id(cell));
-            move |(a, b): (u32, u32)| (a.abs_diff(x), b.abs_diff(y))
-        };
-        let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
-        let distances = &self.distances;
-        let goal = problem.goal();
-        let opened = self.damage.add(problem, goal, changed, weights, |at, id| {
-            let ((gx, gy), (sx, sy)) = (to_goal(at), to_start(at));
-            let heuristic = apart.by(gx, gy);
-            (
-                heuristic,
-                distances.estimate(id, heuristic, apart.by(sx, sy)).0,
-            )
-        });
+        let mut damage = std::mem::take(&mut self.damage);
+        let before = self.before(problem, weights);
+        let opened = damage.add(problem, problem.goal(), changed, weights, before);
+        self.damage = damage;
         if opened {
             self.learned.forget();
         }
+    }
+
+    /// Of a place, its column, row and id, what the heuristic says and what was left when the distances were made, or
+    /// a bound of it from below.
+    fn before<'s>(
+        &'s self,
+        problem: &GridProblem,
+        weights: Weights,
+    ) -> impl Fn((u32, u32), u32) -> (W, W) + use<'s, W> {
+        let layout = *problem.grid().layout();
+        let apart = weights.apart::<W>(problem.moves());
+        let to = |cell: Cell| {
+            let (x, y) = layout.position(layout.id(cell));
+            move |(a, b): (u32, u32)| apart.by(a.abs_diff(x), b.abs_diff(y))
+        };
+        let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
+        move |at, id| {
+            let heuristic = to_goal(at);
+            let (left, _) = self.distances.estimate(id, heuristic, to_start(at));
+            (heuristic, left)
+        }
+    }
+
+    /// Whether, after these further changes, no way from the start is shorter than one that costs so much, as far as
+    /// that is seen at a glance.
+    pub(super) fn leave_none_shorter(
+        &mut self,
+        problem: &GridProblem,
+        changed: &[u32],
+        cost: GridCost,
+    ) -> bool {
+        let Some((_, weights)) = self.basis.filter(|_| self.knows(problem)) else {
+            return false;
+        };
+        let Some(whole) = weights.of_cost::<W>(cost) else {
+            return false;
+        };
+        let grid = problem.grid();
+        let layout = *grid.layout();
+        self.learn();
+        if changed.iter().any(|&id| grid.is_free_id(id)) {
+            self.learned.forget();
+        }
+        let start = layout.id(problem.start());
+        if self.bound(problem)(start, false).0 < whole {
+            return false;
+        }
+        let before = self.before(problem, weights);
+        let way = (layout.position(start), whole);
+        Damage::spares(problem, way, changed, weights, |at, id| before(at, id).1)
     }
 
     /// For which start the distances were made.

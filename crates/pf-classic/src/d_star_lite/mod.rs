@@ -10,7 +10,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{Confines, GridChange, GridProblem, LastPath};
+use pf_grid::{Confines, GridChange, GridProblem, Hold, LastPath};
 
 /// When to repair and when to start over.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,6 +119,8 @@ impl Default for Width {
 /// So many times the expansions of a plan may be spent on answers before the distances are made
 /// right: it takes about as long.
 const DEBT: u64 = 3;
+/// So many changed cells are looked at one by one while the last path holds.
+const FEW: usize = 64;
 /// From so many changed cells on, what they did to the distances takes longer to say than whether there is a way out
 /// at all,
 const MUCH: usize = 256;
@@ -232,6 +234,20 @@ impl DStarLite {
         );
         self.forget_changes();
         found.filter(|&found| found != Found::TooFar)
+    }
+
+    /// Whether what is left of the last path is best: nothing was freed; or few cells were, and no way over them can
+    /// be shorter.
+    fn still_best(&mut self, revision: &Revision<'_, GridProblem>) -> bool {
+        let changed = &self.pending[self.told..];
+        match self.last_path.follow(revision) {
+            Hold::Best => true,
+            Hold::Legal if changed.len() <= FEW => {
+                let (problem, cost) = (revision.problem(), self.last_path.cost());
+                guided!(&mut self.width, guided => guided.leave_none_shorter(problem, changed, cost))
+            }
+            _ => false,
+        }
     }
 
     /// Answers from what is known of the distances, and says how.
@@ -417,7 +433,9 @@ impl Replanner<GridProblem> for DStarLite {
             return self.plan(problem, cx);
         }
         if !self.params.eager
-            && let Some(report) = self.last_path.answer(revision, cx)
+            && self.still_best(revision)
+            && cx.proceed()
+            && let Some(report) = self.last_path.keep(problem, cx)
         {
             return Ok(report);
         }
