@@ -24,7 +24,7 @@ use crate::{
     protocol::{REPETITIONS, Row, Tally, geometric_mean, json, say, timed},
 };
 use anyhow::{Result, bail};
-use contender::{Asked, Group, RULES, is_peer};
+use contender::{Answer, Asked, Group, RULES, is_peer};
 use pf_grid::{Grid, GridProblem};
 use pf_io::{Scen, ScenRow};
 use std::{path::PathBuf, sync::Arc, time::Duration};
@@ -113,6 +113,13 @@ struct Round {
     asked: usize,
 }
 
+/// A query, and of each contender the least time and the answer.
+struct Posed {
+    problem: GridProblem,
+    least: Vec<Duration>,
+    answers: Vec<Option<Answer>>,
+}
+
 impl Round {
     fn of(group: Group) -> Self {
         let tallies = vec![Tally::default(); group.contenders.len()];
@@ -123,41 +130,58 @@ impl Round {
         }
     }
 
-    /// Asks all of them; `scen` states optima.
+    /// Asks all of them a query; `scen` states optima.
     fn ask(&mut self, grid: &Arc<Grid>, scen: Option<&Scen>, row: &ScenRow) -> Result<()> {
-        let Self { group, tallies, .. } = self;
-        let stated = scen.filter(|_| group.moves == RULES[0]);
-        let count = tallies.len();
+        let mut posed = self.pose(grid, row)?;
+        self.repeat(REPETITIONS, &mut posed);
+        self.note(scen, row, &posed);
+        Ok(())
+    }
+
+    fn pose(&self, grid: &Arc<Grid>, row: &ScenRow) -> Result<Posed> {
         let problem = GridProblem::new(Arc::clone(grid), row.start, row.goal)?;
-        let problem = problem.with_moves(group.moves);
-        let mut least = vec![Duration::MAX; count];
-        let mut answers = vec![None; count];
+        let count = self.tallies.len();
+        Ok(Posed {
+            problem: problem.with_moves(self.group.moves),
+            least: vec![Duration::MAX; count],
+            answers: vec![None; count],
+        })
+    }
+
+    /// Asks all of them, each so many times in a row.
+    fn repeat(&mut self, times: u32, posed: &mut Posed) {
+        let count = self.tallies.len();
         for k in (0..count).map(|k| (self.asked + k) % count) {
-            let one = &mut group.contenders[k];
-            for _ in 0..REPETITIONS {
+            let one = &mut self.group.contenders[k];
+            for _ in 0..times {
                 one.prepare();
-                let (time, ()) = timed(|| one.search(&problem));
-                least[k] = least[k].min(time);
-                let answer = one.answer(&problem);
-                answers[k].get_or_insert(answer);
+                let (time, ()) = timed(|| one.search(&posed.problem));
+                posed.least[k] = posed.least[k].min(time);
+                let answer = one.answer(&posed.problem);
+                posed.answers[k].get_or_insert(answer);
             }
         }
         self.asked += 1;
-        let Some(first) = answers.first().copied().flatten() else {
-            return Ok(());
+    }
+
+    /// Takes down what they answered.
+    fn note(&mut self, scen: Option<&Scen>, row: &ScenRow, posed: &Posed) {
+        let Self { group, tallies, .. } = self;
+        let stated = scen.filter(|_| group.moves == RULES[0]);
+        let Some(first) = posed.answers.first().copied().flatten() else {
+            return;
         };
-        for (k, answer) in answers.into_iter().flatten().enumerate() {
+        for (k, answer) in posed.answers.iter().copied().flatten().enumerate() {
             let as_stated = match (stated, answer.cost) {
                 (Some(scen), Some(cost)) => scen.agrees(row, cost.value()),
                 _ => true,
             };
             let tally = &mut tallies[k];
-            tally.add(least[k]);
+            tally.add(posed.least[k]);
             tally.expanded += answer.expanded;
             tally.unsolved += u64::from(answer.cost.is_none());
             tally.mismatches += u64::from(!as_stated || !group.agrees(k, answer, first));
         }
-        Ok(())
     }
 
     /// A row each.
