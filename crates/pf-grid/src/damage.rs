@@ -151,6 +151,12 @@ impl<W: Word> Damage<W> {
             .all(|id| square(layout.position(id), 1).all(is_spared))
     }
 
+    /// Whether what is left at a place was laid down as it was before anything changed.
+    #[must_use]
+    pub fn has_laid_down(&self, place: (u32, u32)) -> bool {
+        self.openings.has_places && self.openings.window.has(place)
+    }
+
     fn hold_below(
         &mut self,
         problem: &GridProblem,

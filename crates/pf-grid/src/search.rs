@@ -438,6 +438,16 @@ impl<W: Word> Search<W> {
         (to_start.max(over), false)
     }
 
+    /// Puts an id among those that the last search expanded, reached at this weight in direction `k`.
+    pub fn insert(&mut self, id: u32, g: W, k: u32) {
+        self.records[id as usize] = Record {
+            g: g.keep(),
+            generation: self.generation,
+            arrivals: 1 << k,
+            closed: true,
+        };
+    }
+
     /// The neighbour over which an id is `left` from the last search's start, by a step that is
     /// legal now, and what the step weighs; of several the first in the order of
     /// [`DIRECTIONS`](crate::DIRECTIONS).

@@ -130,12 +130,41 @@ impl Round {
         }
     }
 
-    /// Asks all of them a query; `scen` states optima.
+    /// Asks all of them a query, each so many times in a row; `scen` states optima.
     fn ask(&mut self, grid: &Arc<Grid>, scen: Option<&Scen>, row: &ScenRow) -> Result<()> {
         let mut posed = self.pose(grid, row)?;
-        self.repeat(REPETITIONS, &mut posed);
+        for k in self.order() {
+            for _ in 0..REPETITIONS {
+                self.time(k, &mut posed);
+            }
+        }
         self.note(scen, row, &posed);
         Ok(())
+    }
+
+    /// Asks all of them each query once, one contender after the other.
+    fn go_round(&mut self, posed: &mut [Posed]) {
+        for k in self.order() {
+            for posed in &mut *posed {
+                self.time(k, posed);
+            }
+        }
+    }
+
+    /// Another one is the first each time.
+    fn order(&mut self) -> impl Iterator<Item = usize> + use<> {
+        let (first, count) = (self.asked, self.tallies.len());
+        self.asked += 1;
+        (0..count).map(move |k| (first + k) % count)
+    }
+
+    fn time(&mut self, k: usize, posed: &mut Posed) {
+        let one = &mut self.group.contenders[k];
+        one.prepare();
+        let (time, ()) = timed(|| one.search(&posed.problem));
+        posed.least[k] = posed.least[k].min(time);
+        let answer = one.answer(&posed.problem);
+        posed.answers[k].get_or_insert(answer);
     }
 
     fn pose(&self, grid: &Arc<Grid>, row: &ScenRow) -> Result<Posed> {
@@ -146,22 +175,6 @@ impl Round {
             least: vec![Duration::MAX; count],
             answers: vec![None; count],
         })
-    }
-
-    /// Asks all of them, each so many times in a row.
-    fn repeat(&mut self, times: u32, posed: &mut Posed) {
-        let count = self.tallies.len();
-        for k in (0..count).map(|k| (self.asked + k) % count) {
-            let one = &mut self.group.contenders[k];
-            for _ in 0..times {
-                one.prepare();
-                let (time, ()) = timed(|| one.search(&posed.problem));
-                posed.least[k] = posed.least[k].min(time);
-                let answer = one.answer(&posed.problem);
-                posed.answers[k].get_or_insert(answer);
-            }
-        }
-        self.asked += 1;
     }
 
     /// Takes down what they answered.

@@ -1,5 +1,7 @@
 //! Distances to the goal: of the last plan, until a field that can be repaired takes its place.
 
+mod harmless;
+
 use pf_core::{Context, Stamp};
 use pf_grid::{Cell, DistanceField, End, GridProblem, Layout, Search, Upkeep, Weights, Word};
 

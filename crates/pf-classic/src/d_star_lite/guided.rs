@@ -1,10 +1,11 @@
 //! Answers from what is known of the distances, in one word width.
 
+mod changes;
+
 use super::distances::Distances;
+use changes::Freed;
 use pf_core::{Context, Outcome};
-use pf_grid::{
-    Cell, Damage, End, GridCost, GridProblem, Learned, Route, Search, Upkeep, Weights, Word,
-};
+use pf_grid::{Cell, Damage, End, GridProblem, Learned, Route, Search, Upkeep, Weights, Word};
 
 /// How an answer came about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -49,6 +50,8 @@ pub(super) struct Guided<W: Word> {
     search: Search<W>,
     route: Route<W>,
     damage: Damage<W>,
+    /// What was freed.
+    freed: Freed,
     /// An answer came without them, and they were not made since.
     are_due: bool,
     /// What the changes are counted from: a goal and its weights.
@@ -70,6 +73,7 @@ impl<W: Word> Default for Guided<W> {
             search: Search::default(),
             route: Route::default(),
             damage: Damage::default(),
+            freed: Freed::default(),
             are_due: false,
             basis: None,
             learned: Learned::default(),
@@ -88,6 +92,7 @@ impl<W: Word> Guided<W> {
             + self.route.bytes()
             + self.damage.bytes()
             + self.learned.bytes()
+            + self.freed.bytes()
             + size_of::<u32>() * (self.closed.capacity() + self.tail.capacity())
     }
 
@@ -162,10 +167,13 @@ impl<W: Word> Guided<W> {
     /// Nothing changed yet.
     fn begin(&mut self, problem: &GridProblem) {
         let layout = problem.grid().layout();
+        // If making them is cut, another answer does without.
+        self.are_due = false;
         self.learned.forget();
         self.closed.clear();
         self.route.clear(layout);
         self.damage.clear();
+        self.freed.clear();
         self.basis = Some((problem.goal(), Weights::of(problem.grid())));
     }
 
@@ -173,7 +181,6 @@ impl<W: Word> Guided<W> {
         if self.distances.are_too_narrow(problem.start()) {
             return Found::TooFar;
         }
-        self.are_due = false;
         let layout = problem.grid().layout();
         let start = layout.id(problem.start());
         match self.distances.settled() {
@@ -257,70 +264,6 @@ impl<W: Word> Guided<W> {
         }
     }
 
-    fn note(&mut self, problem: &GridProblem, changed: &[u32]) {
-        let Some((_, weights)) = self.basis else {
-            return;
-        };
-        self.route.check(problem, changed, weights);
-        let mut damage = std::mem::take(&mut self.damage);
-        let before = self.before(problem, weights);
-        let opened = damage.add(problem, problem.goal(), changed, weights, before);
-        self.damage = damage;
-        if opened {
-            self.learned.forget();
-        }
-    }
-
-    /// Of a place, its column, row and id, what the heuristic says and what was left when the distances were made, or
-    /// a bound of it from below.
-    fn before<'s>(
-        &'s self,
-        problem: &GridProblem,
-        weights: Weights,
-    ) -> impl Fn((u32, u32), u32) -> (W, W) + use<'s, W> {
-        let layout = *problem.grid().layout();
-        let apart = weights.apart::<W>(problem.moves());
-        let to = |cell: Cell| {
-            let (x, y) = layout.position(layout.id(cell));
-            move |(a, b): (u32, u32)| apart.by(a.abs_diff(x), b.abs_diff(y))
-        };
-        let (to_goal, to_start) = (to(problem.goal()), to(self.anchor(problem)));
-        move |at, id| {
-            let heuristic = to_goal(at);
-            let (left, _) = self.distances.estimate(id, heuristic, to_start(at));
-            (heuristic, left)
-        }
-    }
-
-    /// Whether, after these further changes, no way from the start is shorter than one that costs so much, as far as
-    /// that is seen at a glance.
-    pub(super) fn leave_none_shorter(
-        &mut self,
-        problem: &GridProblem,
-        changed: &[u32],
-        cost: GridCost,
-    ) -> bool {
-        let Some((_, weights)) = self.basis.filter(|_| self.knows(problem)) else {
-            return false;
-        };
-        let Some(whole) = weights.of_cost::<W>(cost) else {
-            return false;
-        };
-        let grid = problem.grid();
-        let layout = *grid.layout();
-        self.learn();
-        if changed.iter().any(|&id| grid.is_free_id(id)) {
-            self.learned.forget();
-        }
-        let start = layout.id(problem.start());
-        if self.bound(problem)(start, false).0 < whole {
-            return false;
-        }
-        let before = self.before(problem, weights);
-        let way = (layout.position(start), whole);
-        Damage::spares(problem, way, changed, weights, |at, id| before(at, id).1)
-    }
-
     /// For which start the distances were made.
     fn anchor(&self, problem: &GridProblem) -> Cell {
         self.distances
@@ -343,24 +286,17 @@ impl<W: Word> Guided<W> {
         let weights = self
             .basis
             .map_or(Weights::of(problem.grid()), |(_, weights)| weights);
-        let apart = weights.apart::<W>(problem.moves());
-        let (goal_x, goal_y) = layout.position(layout.id(problem.goal()));
-        let (x0, y0) = layout.position(layout.id(self.anchor(problem)));
+        let before = self.before(problem, weights);
         let opened = self.damage.bound(weights, problem.moves());
         let learned = (!self.learned.is_empty()).then_some(&self.learned);
         move |id, exactly| {
-            let (x, y) = layout.position(id);
-            let estimate = || {
-                let to_goal = apart.by(x.abs_diff(goal_x), y.abs_diff(goal_y));
-                let to_start = apart.by(x.abs_diff(x0), y.abs_diff(y0));
-                (to_goal, self.distances.estimate(id, to_goal, to_start))
-            };
-            let least = opened.at((x, y), || {
-                let (to_goal, (least, _)) = estimate();
+            let place = layout.position(id);
+            let least = opened.at(place, || {
+                let (to_goal, (least, _)) = before(place, id);
                 (to_goal, least)
             });
             let exact = exactly && self.damage.is_below(least) && {
-                let (_, (left, exact)) = estimate();
+                let (_, (left, exact)) = before(place, id);
                 exact && left == least
             };
             (

@@ -1,6 +1,7 @@
 //! D* Lite (Koenig and Likhachev 2002): a search from the goal that is repaired, not repeated.
 
 mod distances;
+mod glance;
 mod guided;
 mod jumping;
 
@@ -10,7 +11,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{Confines, GridChange, GridProblem, Hold, LastPath};
+use pf_grid::{Confines, GridChange, GridProblem, LastPath};
 
 /// When to repair and when to start over.
 #[derive(Clone, Debug, PartialEq)]
@@ -119,16 +120,6 @@ impl Default for Width {
 /// So many times the expansions of a plan may be spent on answers before the distances are made
 /// right: it takes about as long.
 const DEBT: u64 = 3;
-/// So many changed cells are looked at one by one while the last path holds.
-const FEW: usize = 64;
-/// From so many changed cells on, what they did to the distances takes longer to say than whether there is a way out
-/// at all,
-const MUCH: usize = 256;
-/// where most of so many of them lie around the robot,
-const SAMPLE: usize = 16;
-/// and no more than so many looks at a row are taken: some 10 us.
-const LOOKS: u32 = 1 << 10;
-
 /// The same for whichever width is in use.
 macro_rules! guided {
     ($width:expr, $guided:ident => $work:expr) => {
@@ -236,20 +227,6 @@ impl DStarLite {
         found.filter(|&found| found != Found::TooFar)
     }
 
-    /// Whether what is left of the last path is best: nothing was freed; or few cells were, and no way over them can
-    /// be shorter.
-    fn still_best(&mut self, revision: &Revision<'_, GridProblem>) -> bool {
-        let changed = &self.pending[self.told..];
-        match self.last_path.follow(revision) {
-            Hold::Best => true,
-            Hold::Legal if changed.len() <= FEW => {
-                let (problem, cost) = (revision.problem(), self.last_path.cost());
-                guided!(&mut self.width, guided => guided.leave_none_shorter(problem, changed, cost))
-            }
-            _ => false,
-        }
-    }
-
     /// Answers from what is known of the distances, and says how.
     fn answer(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> Found {
         let before = cx.stats().expanded;
@@ -288,33 +265,17 @@ impl DStarLite {
         found
     }
 
-    /// Whether much has just changed around the robot, in so many of the pending cells, and is seen to leave no way out.
-    fn is_shut_in(
-        &mut self,
-        problem: &GridProblem,
-        news: usize,
-        cx: &mut Context<'_, GridProblem>,
-    ) -> bool {
-        let news = &self.pending[self.pending.len() - news..];
-        if news.len() < MUCH {
-            return false;
-        }
-        let (layout, robot) = (problem.grid().layout(), problem.start());
-        let sample = news.iter().step_by(news.len() / SAMPLE).take(SAMPLE);
-        let is_near = |&&id: &&u32| Confines::are_around(robot, layout.cell(id));
-        let near = sample.filter(is_near).count();
-        if near <= SAMPLE / 2 || !cx.proceed() {
-            return false;
-        }
-        let cells = self.confines.measure(problem, LOOKS);
-        cells.inspect(|&cells| cx.visited(cells.into())).is_some()
-    }
-
     /// Whether distances to the goal are known, of this problem or of one that it came from.
     fn knows(&self, problem: &GridProblem) -> bool {
         guided!(&self.width, guided => {
             guided.knows(problem) && guided.distances.settled().is_some()
         })
+    }
+
+    /// Whether no way over what the answers do not know of is shorter than what is left of the last path.
+    fn leave_none_shorter(&mut self, problem: &GridProblem) -> bool {
+        let (changed, cost) = (&self.pending[self.told..], self.last_path.cost());
+        guided!(&mut self.width, guided => guided.leave_none_shorter(problem, changed, cost))
     }
 
     /// A search that gave up learns what it was to find.
