@@ -123,9 +123,9 @@ impl<W: Word> Damage<W> {
         true
     }
 
-    /// Whether no way from a place over further changed cells, of which nothing is noted, weighs less than so much.
-    /// `before` says of a place, its column, row and id, what was left before anything changed, or a bound of it from
-    /// below.
+    /// Whether no way from a place weighs less than so much whose last new step lies beside one of these changed cells,
+    /// of which nothing is noted. `before` says of a place, its column, row and id, what was left before anything
+    /// changed, or a bound of it from below.
     pub fn spares(
         problem: &GridProblem,
         (from, weight): ((u32, u32), W),

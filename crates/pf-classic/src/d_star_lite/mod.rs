@@ -48,8 +48,8 @@ params!(DStarLiteParams {
 /// last path is still best; `searched`, by a search from the robot that ends where distances are
 /// known; `jumped`, by jump points where such searches take long, as on a map of which little is
 /// known yet or to a goal that moved; `shut in`, where much changed and a look around the robot finds no way
-/// out; `repaired`, from repaired distances; `afresh`, by a search of which nothing of use is known. One
-/// iteration is one expansion.
+/// out; `repaired`, from repaired distances; `afresh`, by a search from the robot where nothing of use is known: the
+/// distances are made in `settle` then. One iteration is one expansion.
 ///
 /// ```
 /// use pf_core::{Context, Planner, Problem, Replanner};
@@ -82,7 +82,7 @@ pub struct DStarLite {
     pending: Vec<u32>,
     /// The first of them that the answers do not know of.
     told: usize,
-    /// Expansions of the last plan from scratch.
+    /// Expansions of the last search from scratch, from either end.
     effort: u64,
     /// Expansions of answers since the field was settled.
     debt: u64,
@@ -452,7 +452,7 @@ impl Replanner<GridProblem> for DStarLite {
         }
         if guided!(&self.width, guided => guided.are_due()) {
             if self.refresh(problem, false, cx) == Found::Cut {
-                // Answers to come can do without.
+                // Answers to come do without.
                 self.known = Some(problem.stamp());
             } else {
                 guided!(&mut self.width, guided => guided.prepare(problem, cx));

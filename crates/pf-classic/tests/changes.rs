@@ -1,0 +1,149 @@
+//! What D\* Lite does about changes, beside the oracle.
+#![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
+
+use pf_classic::DStarLite;
+use pf_conformance::{
+    grid::{drawing, oracle},
+    seeded,
+};
+use pf_core::{Context, Outcome, Planner, Problem, Replanner, Report};
+use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem, Moves};
+use rand::{Rng, RngExt};
+
+fn cost(problem: &GridProblem, report: &Report<GridProblem>) -> Option<GridCost> {
+    match &report.outcome {
+        Outcome::Optimal(best) => {
+            assert_eq!(problem.judge(&best.solution), Ok(best.cost));
+            Some(best.cost)
+        }
+        Outcome::Infeasible => None,
+        other => panic!("{other:?} proves nothing on\n{}", drawing(problem)),
+    }
+}
+
+/// A map of large blocks, as those of buildings, under any moves.
+fn blocks(rng: &mut impl Rng) -> GridProblem {
+    let mut block = || {
+        let [x, y, width, height] = [0, 0, 5, 5].map(|least| rng.random_range(least..40));
+        (x..x + width / 2, y..y + height / 2)
+    };
+    let blocks: Vec<_> = (0..8).map(|_| block()).collect();
+    let is_blocked = |cell: Cell| {
+        let mut blocks = blocks.iter();
+        blocks.any(|(columns, rows)| columns.contains(&cell.x) && rows.contains(&cell.y))
+    };
+    let grid = Grid::new(48, 48, |cell| u8::from(!is_blocked(cell))).unwrap();
+    let mut end = || Cell::new(rng.random_range(0..48), rng.random_range(0..48));
+    let problem = GridProblem::new(grid, end(), end()).unwrap();
+    problem.with_moves(Moves::ALL[rng.random_range(0..Moves::ALL.len())])
+}
+
+/// Some cells of a kind no further than three from one.
+fn near(rng: &mut impl Rng, problem: &GridProblem, cell: Cell, free: bool) -> Vec<Cell> {
+    let grid = problem.grid();
+    let count = rng.random_range(1..6);
+    let draw = |_| Cell {
+        x: (cell.x + rng.random_range(0..7)).wrapping_sub(3),
+        y: (cell.y + rng.random_range(0..7)).wrapping_sub(3),
+    };
+    let ends = [problem.start(), problem.goal()];
+    let drawn: Vec<Cell> = (0..4 * count).map(draw).collect();
+    let wanted = |&cell: &Cell| {
+        grid.layout().contains(cell) && grid.is_free(cell) == free && !ends.contains(&cell)
+    };
+    drawn.into_iter().filter(wanted).take(count).collect()
+}
+
+/// A robot on its way; cells near what is left of it are freed, and sometimes blocked.
+#[test]
+fn freed_cells_that_make_nothing_shorter_cost_no_search() {
+    let mut rng = seeded(40);
+    let (mut same, mut searched, mut shorter) = (0, 0, 0);
+    for story in 0..3000 {
+        let mut problem = blocks(&mut rng);
+        let mut planner = DStarLite::default();
+        let mut report = planner.plan(&problem, &mut Context::seeded(0)).unwrap();
+        for batch in 0..10 {
+            let Some(path) = report.outcome.solved().map(|best| best.solution.clone()) else {
+                break;
+            };
+            if rng.random_bool(0.7) {
+                planner.settle(&problem, &mut Context::seeded(0));
+            }
+            let robot = path[rng.random_range(0..path.len().min(4))];
+            let mut moved = problem.clone();
+            moved.apply(&[GridChange::StartMoved(robot)]).unwrap();
+            let before = oracle(&moved);
+            let place = path[rng.random_range(0..path.len())];
+            let freed = near(&mut rng, &moved, place, false);
+            let only_freed = !freed.is_empty() && rng.random_bool(0.8);
+            let mut changes = vec![GridChange::StartMoved(robot), GridChange::Freed(freed)];
+            if !only_freed {
+                changes.push(GridChange::Blocked(near(&mut rng, &moved, place, true)));
+            }
+            let revision = problem.revise(&changes).unwrap();
+            report = planner.replan(&revision, &mut Context::seeded(0)).unwrap();
+            let found = cost(&problem, &report);
+            let drawn = || {
+                format!(
+                    "story {story}, batch {batch}, {changes:?}\n{}",
+                    drawing(&problem)
+                )
+            };
+            assert_eq!(found, oracle(&problem), "{}", drawn());
+            if only_freed && found == before {
+                same += 1;
+                searched += u32::from(report.stats.expanded > 0);
+            } else if only_freed {
+                shorter += 1;
+            }
+        }
+    }
+    assert!(same > 1500 && shorter > 150, "{same}, {shorter}");
+    // 24 %; 33 % if none were taken up among the distances, 58 % without a glance at them.
+    assert!(searched * 7 < same * 2, "{searched} of {same}");
+}
+
+/// Where changes all over the map leave nothing of use, the answer is a search from the robot. Distances to the goal are
+/// there in time for the next one: from `settle`, or from the next such answer.
+#[test]
+fn distances_come_after_an_answer_that_had_none() {
+    let grid = Grid::new(200, 200, |cell| {
+        let is_free = (cell.x * 7 + cell.y * 13) % 31 > 1;
+        // Nobody jumps on terrain.
+        u8::from(is_free) + u8::from(cell == Cell::new(199, 0))
+    });
+    let ends = [Cell::new(1, 1), Cell::new(198, 197)];
+    let first = GridProblem::new(grid.unwrap(), ends[0], ends[1]).unwrap();
+    let spread = |grid: &Grid, off: u32| {
+        let cells = grid.layout().cells().filter(|cell| !ends.contains(cell));
+        let (blocked, freed) = cells
+            .filter(|cell| (cell.x * 11 + cell.y * 17) % 97 == off)
+            .partition(|&cell| grid.is_free(cell));
+        [GridChange::Freed(freed), GridChange::Blocked(blocked)]
+    };
+    for settles in [true, false] {
+        let (mut problem, mut planner) = (first.clone(), DStarLite::default());
+        let mut cx = Context::seeded(0);
+        let report = planner.plan(&problem, &mut cx).unwrap();
+        let mut path = report.outcome.solved().unwrap().solution.clone();
+        let rounds = if settles { 1 } else { 2 };
+        for round in 0..=rounds {
+            let changes = if round < rounds {
+                spread(problem.grid(), round).to_vec()
+            } else {
+                let wall = (0..path[60].y + 20).map(|y| Cell::new(path[60].x, y));
+                vec![GridChange::Blocked(wall.collect())]
+            };
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut cx).unwrap();
+            if settles {
+                planner.settle(&problem, &mut cx);
+            }
+            assert_eq!(cost(&problem, &report), oracle(&problem));
+            path.clone_from(&report.outcome.solved().unwrap().solution);
+            let way = if round < rounds { "afresh" } else { "searched" };
+            assert_eq!(report.note("replanned"), Some(way), "{settles}, {round}");
+        }
+    }
+}
