@@ -440,7 +440,7 @@ impl<W: Word> Search<W> {
     }
 
     /// Puts an id among those that the last search expanded, reached at this weight in direction `k`.
-    pub fn insert(&mut self, id: u32, g: W, k: u32) {
+    pub fn insert(&mut self, id: u32, g: W, k: usize) {
         self.records[id as usize] = Record {
             g: g.keep(),
             generation: self.generation,

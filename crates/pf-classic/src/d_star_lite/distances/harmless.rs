@@ -24,21 +24,24 @@ impl<W: Word> Distances<W> {
         let octile = |cell| weights.octile::<W>(grid, moves, cell);
         let (to_goal, to_start) = (octile(problem.goal()), octile(planned.start));
         let left = |at: u32| self.estimate(at, to_goal(at), to_start(at));
-        let steps = |from: u32| {
-            let mut legal = moves.legal(grid.around_id(from));
-            std::iter::from_fn(move || {
-                let k = legal.trailing_zeros();
-                legal &= legal.wrapping_sub(1);
-                (k < 8).then(|| (k, from.wrapping_add_signed(offsets[k as usize])))
-            })
+        let beside = |k: usize| id.wrapping_add_signed(offsets[k]);
+        // Diagonal steps that pass a cell that is apart stand and fall with it.
+        let counts = |&(k, next): &(usize, u32)| {
+            let passes = || apart(beside(k - 4)) || apart(beside((k - 3) % 4));
+            !apart(next) && (k < 4 || !passes())
         };
-        let weight = |k: u32| if k < 4 { W::STRAIGHT } else { W::DIAGONAL };
+        let legal = moves.legal(grid.around_id(id));
+        let steps = || {
+            let legal = (0..8).filter(|k| legal >> k & 1 == 1);
+            legal.map(|k| (k, beside(k))).filter(counts)
+        };
+        let weight = |k: usize| if k < 4 { W::STRAIGHT } else { W::DIAGONAL };
         let falls = |from: W, to: W, by: W| to < W::MAX && from > to + by;
 
         // What is left from there, if it was free before; or else over which step how much is.
         let mut least = self.search.weight(id).unwrap_or(W::MAX);
         let (was_free, mut over) = (least < W::MAX, None);
-        for (k, next) in steps(id).filter(|&(_, next)| !was_free && !apart(next)) {
+        for (k, next) in steps().filter(|_| !was_free) {
             let (rest, is_exact) = left(next);
             if rest < W::MAX && rest + weight(k) <= least {
                 let is_less = rest + weight(k) < least;
@@ -48,14 +51,14 @@ impl<W: Word> Distances<W> {
         }
         let is_shorter = |(k, next)| {
             let (rest, _) = left(next);
-            !apart(next) && (falls(rest, least, weight(k)) || falls(least, rest, weight(k)))
+            falls(rest, least, weight(k)) || falls(least, rest, weight(k))
         };
-        if steps(id).any(is_shorter) {
+        if steps().any(is_shorter) {
             return false;
         }
         for side in 0..if moves == Moves::Orthogonal { 0 } else { 4 } {
             // From the neighbour on one side to that on the next.
-            let [from, to] = [side, (side + 1) % 4].map(|k| id.wrapping_add_signed(offsets[k]));
+            let [from, to] = [side, (side + 1) % 4].map(beside);
             let k = 4 + (side + 1) % 4;
             let is_legal = grid.is_free_id(from) && moves.legal(grid.around_id(from)) >> k & 1 == 1;
             if is_legal && !apart(from) && !apart(to) {
