@@ -147,3 +147,40 @@ fn distances_come_after_an_answer_that_had_none() {
         }
     }
 }
+
+/// Found by reading: a pocket in a thick wall opens to one side while it is closed to the other; what was noted of that
+/// rests on the closed cell long after its window has grown.
+#[test]
+fn what_is_freed_where_bounds_rest_on_it_counts() {
+    let closet = |cell: Cell| (15..=17).contains(&cell.x) && (76..=78).contains(&cell.y);
+    let grid = Grid::new(100, 110, |cell| {
+        let in_wall = (50..=53).contains(&cell.x) && cell.y < 104;
+        let in_pocket = (51..=53).contains(&cell.x) && cell.y == 50
+            || (51..=52).contains(&cell.x) && cell.y == 51;
+        let in_closet = closet(cell) && cell != Cell::new(16, 77);
+        u8::from(!(in_wall && !in_pocket || in_closet))
+    });
+    let mut problem =
+        GridProblem::new(grid.unwrap(), Cell::new(20, 80), Cell::new(60, 50)).unwrap();
+    let (mut planner, mut cx) = (DStarLite::default(), Context::seeded(0));
+    planner.plan(&problem, &mut cx).unwrap();
+    planner.settle(&problem, &mut cx);
+    let [near, far] = [Cell::new(53, 50), Cell::new(50, 50)];
+    let pocket = [Cell::new(51, 51), Cell::new(52, 51)];
+    let door = Cell::new(17, 77);
+    let aside = |x, y| GridChange::StartMoved(Cell::new(x, y));
+    for changes in [
+        vec![aside(19, 79), GridChange::Blocked(vec![near])],
+        vec![
+            aside(19, 80),
+            GridChange::Freed(vec![far]),
+            GridChange::Blocked(pocket.to_vec()),
+        ],
+        vec![aside(20, 79), GridChange::Freed(vec![door])],
+        vec![GridChange::Freed(vec![near])],
+    ] {
+        let revision = problem.revise(&changes).unwrap();
+        let report = planner.replan(&revision, &mut cx).unwrap();
+        assert_eq!(cost(&problem, &report), oracle(&problem), "{changes:?}");
+    }
+}

@@ -17,7 +17,7 @@ use crate::{
 /// *Adaptive A\**, 2005.
 #[derive(Clone, Debug)]
 pub struct Damage<W> {
-    /// Less was left nowhere among the changed cells; where they are dense, nowhere at the edge of their window.
+    /// Less was left nowhere among the noted cells; where they are dense, nowhere at the edge of their window.
     below: W,
     openings: Openings<W>,
 }
@@ -151,10 +151,11 @@ impl<W: Word> Damage<W> {
             .all(|id| square(layout.position(id), 1).all(is_spared))
     }
 
-    /// Whether what is left at a place was laid down as it was before anything changed.
+    /// Whether bounds rest on what was left at a place, or on whether it was free, when something was noted.
     #[must_use]
-    pub fn has_laid_down(&self, place: (u32, u32)) -> bool {
-        self.openings.has_places && self.openings.window.has(place)
+    pub fn rests_on(&self, place: (u32, u32)) -> bool {
+        let all = &self.openings;
+        (all.has_places || !all.is_empty()) && all.window.has(place)
     }
 
     fn hold_below(
@@ -171,7 +172,7 @@ impl<W: Word> Damage<W> {
         }
     }
 
-    /// Whether nothing changed for a cell from which `left` was left.
+    /// Whether nothing that was noted changed anything for a cell from which `left` was left.
     #[inline]
     #[must_use]
     pub fn is_below(&self, left: W) -> bool {

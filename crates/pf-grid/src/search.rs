@@ -439,12 +439,12 @@ impl<W: Word> Search<W> {
         (to_start.max(over), false)
     }
 
-    /// Puts an id among those that the last search expanded, reached at this weight in direction `k`.
-    pub fn insert(&mut self, id: u32, g: W, k: usize) {
+    /// Puts an id among those that the last search expanded at this weight. No way [back](Self::back) leads on from it.
+    pub fn insert(&mut self, id: u32, g: W) {
         self.records[id as usize] = Record {
             g: g.keep(),
             generation: self.generation,
-            arrivals: 1 << k,
+            arrivals: 0,
             closed: true,
         };
     }

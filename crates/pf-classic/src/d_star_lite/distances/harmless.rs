@@ -25,7 +25,7 @@ impl<W: Word> Distances<W> {
         let (to_goal, to_start) = (octile(problem.goal()), octile(planned.start));
         let left = |at: u32| self.estimate(at, to_goal(at), to_start(at));
         let beside = |k: usize| id.wrapping_add_signed(offsets[k]);
-        // Diagonal steps that pass a cell that is apart stand and fall with it.
+        // Diagonal steps that pass a cell that is apart are that one's: both ends lie beside it.
         let counts = |&(k, next): &(usize, u32)| {
             let passes = || apart(beside(k - 4)) || apart(beside((k - 3) % 4));
             !apart(next) && (k < 4 || !passes())
@@ -38,17 +38,12 @@ impl<W: Word> Distances<W> {
         let weight = |k: usize| if k < 4 { W::STRAIGHT } else { W::DIAGONAL };
         let falls = |from: W, to: W, by: W| to < W::MAX && from > to + by;
 
-        // What is left from there, if it was free before; or else over which step how much is.
-        let mut least = self.search.weight(id).unwrap_or(W::MAX);
-        let (was_free, mut over) = (least < W::MAX, None);
-        for (k, next) in steps().filter(|_| !was_free) {
-            let (rest, is_exact) = left(next);
-            if rest < W::MAX && rest + weight(k) <= least {
-                let is_less = rest + weight(k) < least;
-                least = rest + weight(k);
-                over = is_exact.then_some(k).or(over.filter(|_| !is_less));
-            }
-        }
+        // What is left from there.
+        let reached = self.search.weight(id);
+        let over = steps().map(|(k, next)| (left(next).0, weight(k)));
+        let over = over.filter(|&(rest, _)| rest < W::MAX);
+        let new = || over.map(|(rest, by)| rest + by).min();
+        let least = reached.or_else(new).unwrap_or(W::MAX);
         let is_shorter = |(k, next)| {
             let (rest, _) = left(next);
             falls(rest, least, weight(k)) || falls(least, rest, weight(k))
@@ -68,10 +63,10 @@ impl<W: Word> Distances<W> {
                 }
             }
         }
-        if let Some(k) = over
-            && (planned.whole == W::MAX || least + to_start(id) <= planned.known)
-        {
-            self.search.insert(id, least, k & 4 | (k + 2) & 3);
+        // Otherwise no more is known of it than of cells that the plan did not expand.
+        let is_known = planned.whole == W::MAX || least + to_start(id) < planned.known;
+        if reached.is_none() && least < W::MAX && is_known {
+            self.search.insert(id, least);
         }
         true
     }

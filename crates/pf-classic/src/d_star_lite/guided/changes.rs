@@ -113,7 +113,7 @@ impl<W: Word> Guided<W> {
     }
 
     /// Takes those of further changed cells that were freed up among the distances, where nothing becomes shorter over
-    /// them; the others are `fresh` then. Not if they are many, and says so by `false`.
+    /// them; the others are `fresh` then. Not if they or the openers are many, and says so by `false`.
     fn take_up(&mut self, problem: &GridProblem, changed: &[u32]) -> bool {
         let (grid, damage) = (problem.grid(), &self.damage);
         let layout = grid.layout();
@@ -139,7 +139,7 @@ impl<W: Word> Guided<W> {
                 .map(|offset| id.wrapping_add_signed(offset));
             let is_bound = is_opener(&id)
                 || around.iter().any(is_opener)
-                || damage.has_laid_down(layout.position(id));
+                || damage.rests_on(layout.position(id));
             // What comes later looks at the steps between the two.
             let apart = |near| fresh.contains(&near) || freed[at + 1..].contains(&near);
             if is_bound || !self.distances.take_up(problem, id, apart) {
