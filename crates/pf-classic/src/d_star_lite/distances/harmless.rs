@@ -64,8 +64,8 @@ impl<W: Word> Distances<W> {
             }
         }
         // Otherwise no more is known of it than of cells that the plan did not expand.
-        let is_known = planned.whole == W::MAX || least + to_start(id) < planned.known;
-        if reached.is_none() && least < W::MAX && is_known {
+        let is_known = || planned.whole == W::MAX || least + to_start(id) < planned.known;
+        if reached.is_none() && least < W::MAX && is_known() {
             self.search.insert(id, least);
         }
         true
