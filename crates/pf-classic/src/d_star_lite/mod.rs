@@ -120,6 +120,7 @@ impl Default for Width {
 /// So many times the expansions of a plan may be spent on answers before the distances are made
 /// right: it takes about as long.
 const DEBT: u64 = 3;
+
 /// The same for whichever width is in use.
 macro_rules! guided {
     ($width:expr, $guided:ident => $work:expr) => {
