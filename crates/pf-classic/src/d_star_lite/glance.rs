@@ -4,6 +4,8 @@ use super::DStarLite;
 use pf_core::{Context, Revision};
 use pf_grid::{Confines, GridProblem, Hold};
 
+/// More changed cells than that are noted, so that they need not be looked through again and again.
+const LONG: usize = 1 << 10;
 /// From so many changed cells on, what they did to the distances takes longer to say than whether there is a way out
 /// at all,
 const MUCH: usize = 256;
@@ -18,8 +20,10 @@ impl DStarLite {
     pub(super) fn still_best(&mut self, revision: &Revision<'_, GridProblem>) -> bool {
         match self.last_path.follow(revision) {
             Hold::Best => true,
-            Hold::Legal => self.leave_none_shorter(revision.problem()),
-            Hold::Broken | Hold::Gone => false,
+            Hold::Legal if self.pending.len() - self.told <= LONG => {
+                self.leave_none_shorter(revision.problem())
+            }
+            Hold::Legal | Hold::Broken | Hold::Gone => false,
         }
     }
 
