@@ -184,3 +184,38 @@ fn what_is_freed_where_bounds_rest_on_it_counts() {
         assert_eq!(cost(&problem, &report), oracle(&problem), "{changes:?}");
     }
 }
+
+/// The same where nothing that was noted led to the goal, and what is noted later lies elsewhere.
+#[test]
+fn what_is_freed_where_nothing_was_in_reach_counts() {
+    let corridor = |cell: Cell| (6..=8).contains(&cell.x) && cell.y == 5;
+    let pocket = [Cell::new(6, 4), Cell::new(7, 4)];
+    let grid = Grid::new(60, 40, |cell| {
+        let is_open = cell.x <= 4 && cell != Cell::new(4, 3) || cell.x >= 9;
+        u8::from(is_open || corridor(cell) || pocket.contains(&cell))
+    });
+    let problem = GridProblem::new(grid.unwrap(), Cell::new(0, 5), Cell::new(12, 5)).unwrap();
+    for moves in Moves::ALL {
+        let mut problem = problem.clone().with_moves(moves);
+        let (mut planner, mut cx) = (DStarLite::default(), Context::seeded(0));
+        planner.plan(&problem, &mut cx).unwrap();
+        let (freed, blocked) = (GridChange::Freed, GridChange::Blocked);
+        for changes in [
+            vec![blocked(vec![Cell::new(8, 5)])],
+            vec![freed(vec![Cell::new(5, 5)]), blocked(pocket.to_vec())],
+            vec![
+                freed(vec![Cell::new(4, 3)]),
+                blocked(vec![Cell::new(50, 35)]),
+            ],
+            vec![freed(vec![Cell::new(8, 5)])],
+        ] {
+            let revision = problem.revise(&changes).unwrap();
+            let report = planner.replan(&revision, &mut cx).unwrap();
+            assert_eq!(
+                cost(&problem, &report),
+                oracle(&problem),
+                "{moves}, {changes:?}"
+            );
+        }
+    }
+}

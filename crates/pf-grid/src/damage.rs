@@ -20,6 +20,8 @@ pub struct Damage<W> {
     /// Less was left nowhere among the noted cells; where they are dense, nowhere at the edge of their window.
     below: W,
     openings: Openings<W>,
+    /// Holds all places near what was noted together with anything freed.
+    noted: Option<Window>,
 }
 
 /// A window of that many places is looked at place by place however few changed cells there are,
@@ -36,6 +38,7 @@ impl<W: Word> Default for Damage<W> {
         Self {
             below: W::MAX,
             openings: Openings::default(),
+            noted: None,
         }
     }
 }
@@ -45,6 +48,7 @@ impl<W: Word> Damage<W> {
     pub fn clear(&mut self) {
         self.below = W::MAX;
         self.openings.clear();
+        self.noted = None;
     }
 
     /// Takes note of changed cells. The distances are those to `goal`; `before` says of a place, its column, row and
@@ -83,6 +87,7 @@ impl<W: Word> Damage<W> {
         let Some(window) = window.map(Window::grown) else {
             return false;
         };
+        self.noted = Some(self.noted.map_or(window, |noted| noted.with(window)));
         let all = &mut self.openings;
         let room = if all.is_empty() && !all.has_places {
             window.places()
@@ -151,11 +156,10 @@ impl<W: Word> Damage<W> {
             .all(|id| square(layout.position(id), 1).all(is_spared))
     }
 
-    /// Whether bounds rest on what was left at a place, or on whether it was free, when something was noted.
+    /// Whether bounds may rest on what was left at a place, or on whether it was free, when something was noted.
     #[must_use]
     pub fn rests_on(&self, place: (u32, u32)) -> bool {
-        let all = &self.openings;
-        (all.has_places || !all.is_empty()) && all.window.has(place)
+        self.noted.is_some_and(|noted| noted.has(place))
     }
 
     fn hold_below(

@@ -5,7 +5,7 @@ use pf_grid::{GridProblem, Moves, Weights, Word};
 
 impl<W: Word> Distances<W> {
     /// Takes a cell that was freed up among the distances of a plan, if none of them is shorter over it: what was known
-    /// holds then as if the cell had been free. Steps from and to cells that are `apart` do not count.
+    /// holds then as if the cell had been free. Steps from and to cells that are `apart` do not count, nor do its own that pass one.
     ///
     /// Whatever is a bound from below on what is left, says 0 at the goal and falls by no more than any step weighs, stays
     /// one while that is true of new steps, too: those from and to the cell, and the diagonal ones that pass it.
