@@ -142,15 +142,17 @@ impl Auto {
         self.jps.prepare(problem);
     }
 
-    /// Answers by jump points, and from what is left of a last path, in whose place it leaves the one found.
+    /// Answers by jump points, and leaves the path found in the place of the last one. If it learns, it takes what it
+    /// learned and what is left of the last path.
     pub(crate) fn jump(
         &mut self,
         problem: &GridProblem,
+        learns: bool,
         last: &mut LastPath,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.known = Some(problem.stamp());
-        self.jps.answer(problem, true, Some(last), cx)
+        self.jps.answer(problem, learns, Some(last), cx)
     }
 
     /// Whether a grid was ever surveyed.

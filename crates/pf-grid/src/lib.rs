@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod beeline;
 mod bend;
 mod bits;
 mod buckets;
@@ -31,6 +32,7 @@ mod weights;
 mod window;
 mod word;
 
+pub use beeline::Beeline;
 pub use bits::bits_from;
 pub use buckets::Buckets;
 pub use canonical::{Successors, successors};

@@ -218,6 +218,21 @@ impl<'g> Steps<'g> {
         self.from(from) >> Self::place(step) & 1 == 1
     }
 
+    /// How many of so many steps in a direction are legal from a free cell on, and where they lead.
+    #[inline]
+    pub(crate) fn run(&self, from: Cell, (dx, dy): (i32, i32), count: u32) -> (u32, Cell) {
+        let place = Self::place((dx.cast_unsigned(), dy.cast_unsigned()));
+        let on = dx + dy * self.pitch.cast_signed();
+        let first = self.id(from);
+        let is_open = |&n: &u32| {
+            let id = first.wrapping_add_signed(on.wrapping_mul(n.cast_signed()));
+            self.legal_at(id) >> place & 1 == 1
+        };
+        let taken = (0..count).find(|n| !is_open(n)).unwrap_or(count);
+        let along = |at: u32, d: i32| at.wrapping_add_signed(d.wrapping_mul(taken.cast_signed()));
+        (taken, Cell::new(along(from.x, dx), along(from.y, dy)))
+    }
+
     /// Whether all steps of a path are legal whose first cell is free.
     #[inline]
     pub(crate) fn are_legal(&self, path: &[Cell]) -> bool {

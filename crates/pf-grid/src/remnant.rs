@@ -1,6 +1,6 @@
 //! What is left of a path at one end, and how to join it.
 
-use crate::{Apart, Cell, GridCost, GridProblem, Moves, Weights, Word};
+use crate::{Apart, Beeline, Cell, GridCost, GridProblem, Weights, Word};
 
 /// So many places of it can be joined at the most,
 const PLACES: usize = 6;
@@ -15,16 +15,13 @@ const FAR: usize = 128;
 /// way there could be.
 #[derive(Debug)]
 pub struct Remnant<'p, W> {
-    problem: &'p GridProblem,
+    line: Beeline<'p>,
     apart: Apart<W>,
     /// Where it can be joined, the place that is furthest from the end first: how far along, the cell, and
     /// what is left from there.
     places: [(usize, Cell, W); PLACES],
     count: usize,
 }
-
-/// A piece of a way: its direction and how many steps it has.
-type Piece = (u32, u32);
 
 impl<'p, W: Word> Remnant<'p, W> {
     /// Of cells that cost so much from the first to the end. `None` beyond [`Word::LIMIT`].
@@ -37,7 +34,7 @@ impl<'p, W: Word> Remnant<'p, W> {
         let mut left = weights.of_cost(cost)?;
         let mut cell = cells.next()?;
         let mut remnant = Self {
-            problem,
+            line: Beeline::of(problem),
             apart: weights.apart(problem.moves()),
             places: [(0, cell, left); PLACES],
             count: 1,
@@ -84,59 +81,7 @@ impl<'p, W: Word> Remnant<'p, W> {
             .iter()
             .find_map(|&(at, to, rest)| {
                 let apart = self.apart.by(from.x.abs_diff(to.x), from.y.abs_diff(to.y));
-                let pieces = (apart + rest == left).then(|| self.pieces(from, to))??;
-                way.clear();
-                way.push(from);
-                let mut cell = from;
-                for (k, count) in pieces {
-                    way.extend((0..count).map(|_| {
-                        cell = cell.towards(k as usize);
-                        cell
-                    }));
-                }
-                Some(at)
+                (apart + rest == left && self.line.way(from, to, way)).then_some(at)
             })
-    }
-
-    /// The pieces of a way from one cell to another, if one of the two that there are is legal.
-    fn pieces(&self, from: Cell, to: Cell) -> Option<[Piece; 2]> {
-        let (dx, dy) = (from.x.abs_diff(to.x), from.y.abs_diff(to.y));
-        let row = (if to.x > from.x { 0 } else { 2 }, dx);
-        let column = (if to.y > from.y { 1 } else { 3 }, dy);
-        let pieces = if self.problem.moves() == Moves::Orthogonal {
-            [row, column]
-        } else {
-            let (longer, shorter) = if dx > dy {
-                (row, column)
-            } else {
-                (column, row)
-            };
-            // Direction `4 + i` lies between `i` and the next one.
-            let between = if (row.0 + 1) % 4 == column.0 {
-                row.0
-            } else {
-                column.0
-            };
-            [(4 + between, shorter.1), (longer.0, longer.1 - shorter.1)]
-        };
-        let [first, second] = pieces;
-        let orders = [pieces, [second, first]];
-        orders
-            .into_iter()
-            .find(|pieces| self.are_legal(from, pieces))
-    }
-
-    fn are_legal(&self, from: Cell, pieces: &[Piece; 2]) -> bool {
-        let (grid, moves) = (self.problem.grid(), self.problem.moves());
-        let layout = grid.layout();
-        let offsets = layout.offsets();
-        let mut id = layout.id(from);
-        pieces.iter().all(|&(k, count)| {
-            (0..count).all(|_| {
-                let legal = moves.legal(grid.around_id(id));
-                id = id.wrapping_add_signed(offsets[k as usize]);
-                legal >> k & 1 == 1
-            })
-        })
     }
 }

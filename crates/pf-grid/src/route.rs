@@ -21,13 +21,18 @@ pub struct Route<W> {
 impl<W: Word> Route<W> {
     /// Forgets the path, and makes ready for grids of a layout.
     pub fn clear(&mut self, layout: &Layout) {
-        self.cells.clear();
-        self.left.clear();
-        self.sound = 0;
+        self.forget();
         if self.places.len() != layout.len() {
             self.places.clear();
             self.places.resize(layout.len(), 0);
         }
+    }
+
+    /// Forgets the path.
+    pub fn forget(&mut self) {
+        self.cells.clear();
+        self.left.clear();
+        self.sound = 0;
     }
 
     /// Bytes held.
@@ -120,9 +125,7 @@ impl<W: Word> Route<W> {
 
     /// Begins anew at the goal.
     pub fn restart(&mut self, id: u32, goal: Cell) {
-        self.cells.clear();
-        self.left.clear();
-        self.sound = 0;
+        self.forget();
         self.extend(id, goal, W::default());
     }
 

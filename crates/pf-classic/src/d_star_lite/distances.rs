@@ -66,7 +66,12 @@ impl<W: Word> Distances<W> {
         self.search.bytes() + self.field.bytes()
     }
 
-    /// Gives them up.
+    /// Gives them up, and makes none of a problem.
+    pub(super) fn give_up(&mut self, problem: &GridProblem) {
+        self.layout = Some(*problem.grid().layout());
+        self.forget();
+    }
+
     fn forget(&mut self) {
         self.field.forget();
         self.planned = None;

@@ -2,7 +2,7 @@
 
 use super::DStarLite;
 use pf_core::{Context, Revision};
-use pf_grid::{Confines, GridProblem, Hold};
+use pf_grid::{Beeline, Confines, GridProblem, Hold};
 
 /// More changed cells than that are noted, so that they need not be looked through again and again.
 const LONG: usize = 1 << 10;
@@ -20,11 +20,18 @@ impl DStarLite {
     pub(super) fn still_best(&mut self, revision: &Revision<'_, GridProblem>) -> bool {
         match self.last_path.follow(revision) {
             Hold::Best => true,
+            Hold::Legal if self.is_straight(revision.problem()) => true,
             Hold::Legal if self.pending.len() - self.told <= LONG => {
                 self.leave_none_shorter(revision.problem())
             }
             Hold::Legal | Hold::Broken | Hold::Gone => false,
         }
+    }
+
+    /// Whether what is left of the last path is as short as if nothing stood about.
+    fn is_straight(&self, problem: &GridProblem) -> bool {
+        let least = Beeline::of(problem).cost(problem.start(), problem.goal());
+        self.last_path.cost() == least
     }
 
     /// Whether much has just changed around the robot, in so many of the pending cells, and is seen to leave no way out.

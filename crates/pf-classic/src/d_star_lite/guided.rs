@@ -164,16 +164,33 @@ impl<W: Word> Guided<W> {
         }
     }
 
+    /// Nothing is known: who needs distances has to make them.
+    pub(super) fn give_up(&mut self, problem: &GridProblem) {
+        self.distances.give_up(problem);
+        self.forget();
+        self.route.forget();
+        (self.basis, self.are_due) = (None, true);
+    }
+
+    /// Whether [nothing](Self::give_up) is known.
+    pub(super) fn is_idle(&self) -> bool {
+        self.basis.is_none() && self.are_due
+    }
+
+    fn forget(&mut self) {
+        self.learned.forget();
+        self.closed.clear();
+        self.damage.clear();
+        self.freed.clear();
+    }
+
     /// Nothing changed yet.
     fn begin(&mut self, problem: &GridProblem) {
         let layout = problem.grid().layout();
         // If making them is cut, another answer does without.
         self.are_due = false;
-        self.learned.forget();
-        self.closed.clear();
+        self.forget();
         self.route.clear(layout);
-        self.damage.clear();
-        self.freed.clear();
         self.basis = Some((problem.goal(), Weights::of(problem.grid())));
     }
 

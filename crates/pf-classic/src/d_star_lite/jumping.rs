@@ -1,8 +1,8 @@
 //! When D* Lite jumps, and what it tells who does.
 
 use super::{DStarLite, guided::Found};
-use pf_core::{Context, Outcome, Problem, Report, Unsupported};
-use pf_grid::GridProblem;
+use pf_core::{Context, Outcome, Problem, Proof, Report, Unsupported};
+use pf_grid::{Beeline, GridProblem};
 
 /// Where jump points are at hand, a search is given up that has expanded one of so many cells that a plan does:
 /// they expand fewer yet.
@@ -15,6 +15,10 @@ const CURT: u64 = 8;
 const BITS: u64 = 512;
 /// or a plan one in so many: they take about as long, and a goal that moves takes no other plan.
 const PLAN: u64 = 32;
+/// Little stands about where no more than one cell of so many is blocked.
+const OPEN: u64 = 64;
+/// Jumps take little that expand so many cells.
+const LITTLE: u64 = 1 << 9;
 /// They are made anew where more cells than that change at once.
 const MANY: usize = 256;
 
@@ -70,7 +74,7 @@ impl DStarLite {
         cx.note("replanned", "jumped");
         self.catch_up(problem);
         let before = cx.stats().expanded;
-        let report = self.auto.jump(problem, &mut self.last_path, cx)?;
+        let report = self.auto.jump(problem, true, &mut self.last_path, cx)?;
         let expanded = cx.stats().expanded - before;
         self.is_caught_up();
         self.jump_effort = match self.jump_effort {
@@ -86,10 +90,60 @@ impl DStarLite {
         Ok(report)
     }
 
+    /// Answers a plan by a way of two straight pieces, if one is open.
+    pub(super) fn go_straight(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> Option<Report<GridProblem>> {
+        if self.params.eager || !problem.grid().is_uniform() {
+            return None;
+        }
+        let mut way = Vec::new();
+        let is_open = Beeline::of(problem).way(problem.start(), problem.goal(), &mut way);
+        if !is_open || !cx.proceed() {
+            return None;
+        }
+        self.be_idle(problem);
+        let report = cx.answer(problem, way, Proof::Optimal);
+        self.last_path.remember(problem, &report);
+        Some(report)
+    }
+
+    /// Whether a plan is made by jump points: where so little stands about that distances would tell hardly more than
+    /// how far it is.
+    pub(super) fn goes_by_jumps(&mut self, problem: &GridProblem) -> bool {
+        let grid = problem.grid();
+        let cells = u64::from(grid.width()) * u64::from(grid.height());
+        let blocked = cells - u64::from(grid.free_cells());
+        if self.params.eager || !grid.is_uniform() || blocked * OPEN > cells {
+            return false;
+        }
+        self.be_idle(problem);
+        self.prepare_jumps(problem);
+        self.auto.has_jumps()
+    }
+
+    /// Knows nothing but the problem.
+    fn be_idle(&mut self, problem: &GridProblem) {
+        self.forget_changes();
+        self.give_up(problem);
+        (self.known, self.effort) = (Some(problem.stamp()), 0);
+    }
+
+    /// Whether answers do well without distances: while nothing stood between start and goal, and jumps take little.
+    pub(super) fn rests_on_jumps(&self) -> bool {
+        self.is_idle() && self.jump_effort <= LITTLE && self.auto.has_jumps()
+    }
+
     /// Makes the bits of jump points or follows what has changed with them, if there is reason to.
     pub(super) fn prepare_jumps(&mut self, problem: &GridProblem) {
         let cells = problem.grid().layout().len() as u64;
-        if !self.auto.is_in_use() && self.debt <= cells / BITS && self.effort <= cells / PLAN {
+        if !self.is_idle()
+            && !self.auto.is_in_use()
+            && self.debt <= cells / BITS
+            && self.effort <= cells / PLAN
+        {
             return;
         }
         self.catch_up(problem);

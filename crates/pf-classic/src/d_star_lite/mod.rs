@@ -273,6 +273,16 @@ impl DStarLite {
         })
     }
 
+    /// Whether no distances are known nor anything else, as nothing stood in the way of a plan.
+    fn is_idle(&self) -> bool {
+        guided!(&self.width, guided => guided.is_idle())
+    }
+
+    /// Gives the distances up, and makes none.
+    fn give_up(&mut self, problem: &GridProblem) {
+        guided!(&mut self.width, guided => guided.give_up(problem));
+    }
+
     /// Whether no way over what the answers do not know of is shorter than what is left of the last path.
     fn leave_none_shorter(&mut self, problem: &GridProblem) -> bool {
         let (changed, cost) = (&self.pending[self.told..], self.last_path.cost());
@@ -353,8 +363,14 @@ impl Planner<GridProblem> for DStarLite {
             self.known = None;
             return Ok(cx.report(Outcome::Infeasible));
         }
-        let found = self.refresh(problem, self.params.eager, cx);
         self.jump_effort = 0;
+        if let Some(report) = self.go_straight(problem, cx) {
+            return Ok(report);
+        }
+        if self.goes_by_jumps(problem) {
+            return self.auto.jump(problem, false, &mut self.last_path, cx);
+        }
+        let found = self.refresh(problem, self.params.eager, cx);
         Ok(self.report(problem, found, cx))
     }
 }
@@ -441,12 +457,15 @@ impl Replanner<GridProblem> for DStarLite {
         if self.known != Some(problem.stamp()) || !cx.proceed() {
             return;
         }
+        if !self.params.eager {
+            self.prepare_jumps(problem);
+        }
+        if self.rests_on_jumps() {
+            return;
+        }
         guided!(&mut self.width, guided => guided.prepare(problem, cx));
         if !cx.proceed() {
             return;
-        }
-        if !self.params.eager {
-            self.prepare_jumps(problem);
         }
         if is_hopeless(problem) {
             return;

@@ -35,6 +35,11 @@ pub(super) struct Place {
 #[must_use]
 pub(super) struct Marked(Option<(Place, u8)>);
 
+/// Changes of so many cells in a row are followed at once, and those around them:
+const RUN: u32 = 30;
+/// so many in all.
+const ROW: usize = RUN as usize + 2;
+
 impl JumpMap {
     /// Whether it is that of this grid as it is.
     pub(super) fn is_of(&self, grid: &Grid, moves: Moves) -> bool {
@@ -103,20 +108,50 @@ impl JumpMap {
         let Some((_, moves, layout)) = self.made else {
             return;
         };
-        let around = self.steps(&layout);
-        for cell in changed {
-            let centre = self.place(&layout, layout.id(cell));
-            for step in around.into_iter().chain([(0, 0)]) {
-                let place = centre.step(step);
-                let stops = if grid.is_free_id(place.id) {
-                    self.forced[usize::from(grid.around_id(place.id))]
+        let mut changed = changed.peekable();
+        while let Some(first) = changed.next() {
+            let mut next = first.x + 1;
+            let is_next = |next| next - first.x < RUN;
+            while is_next(next) && changed.next_if_eq(&Cell::new(next, first.y)).is_some() {
+                next += 1;
+            }
+            self.redo(grid, &layout, first, (next - first.x) as usize);
+        }
+        self.made = Some((grid.stamp(), moves, layout));
+    }
+
+    /// Makes the bits again of so many cells in a row and of those around them.
+    fn redo(&mut self, grid: &Grid, layout: &Layout, first: Cell, count: usize) {
+        let corner = self.place(layout, layout.id(first) - layout.pitch() - 1);
+        let mut stops = [[0u8; ROW]; 3];
+        let mut id = corner.id;
+        for row in &mut stops {
+            let (mut east, mut west) = (0, 0);
+            for (i, (id, stops)) in (id..).zip(&mut row[..count + 2]).enumerate() {
+                *stops = if grid.is_free_id(id) {
+                    self.forced[usize::from(grid.around_id(id))]
                 } else {
                     0b1111
                 };
-                self.set(place, stops);
+                east |= u64::from(*stops & 1) << i;
+                west |= u64::from(*stops >> 2 & 1) << i;
             }
+            put(&mut self.stops[0], id, count + 2, east);
+            put(&mut self.stops[2], id, count + 2, west);
+            id += layout.pitch();
         }
-        self.made = Some((grid.stamp(), moves, layout));
+        let [above, within, below] = stops;
+        let mut at = corner.turned;
+        for i in 0..count + 2 {
+            // Of three places one below the other those that are set in one direction, as a number.
+            let of = |k: u32| {
+                let bit = |stops: u8| u64::from(stops >> k & 1);
+                bit(above[i]) | bit(within[i]) << 1 | bit(below[i]) << 2
+            };
+            put(&mut self.stops[1], at, 3, of(1));
+            put(&mut self.stops[3], at, 3, of(3));
+            at += self.pitch;
+        }
     }
 
     /// In which straight directions a scan stops at a free cell with these free neighbours.
@@ -225,6 +260,18 @@ impl Place {
             id: self.id.wrapping_add_signed(id),
             turned: self.turned.wrapping_add_signed(turned),
         }
+    }
+}
+
+/// Puts the lowest bits of a word, which has no others, in the place of so many from one on.
+#[inline]
+fn put(bits: &mut [u64], at: u32, count: usize, word: u64) {
+    let (first, shift) = (at as usize / 64, at % 64);
+    let mask = u64::MAX >> (64 - count);
+    bits[first] = bits[first] & !(mask << shift) | word << shift;
+    if shift as usize + count > 64 {
+        let rest = 64 - shift;
+        bits[first + 1] = bits[first + 1] & !(mask >> rest) | word >> rest;
     }
 }
 

@@ -2,6 +2,8 @@
 
 mod jumps;
 mod map;
+mod nodes;
+mod open;
 mod prepared;
 mod search;
 mod table;

@@ -1,27 +1,14 @@
 //! A best-first search over jump points, in one word width.
 
-use super::jumps::{Jumps, fans};
+use super::{
+    jumps::{Jumps, fans},
+    nodes::Nodes,
+    open::Open,
+};
 use pf_core::Context;
 use pf_grid::{
-    Buckets, Cell, End, GridProblem, LastPath, Layout, Learned, Moves, Remnant, Weights, Word,
-    successors,
+    Beeline, Cell, End, GridProblem, LastPath, Layout, Moves, Remnant, Weights, Word, successors,
 };
-
-/// What is known of a jump point.
-#[derive(Clone, Copy, Debug, Default)]
-#[repr(C, packed(4))]
-struct Record<W> {
-    /// Least weight found from the start.
-    g: W,
-    /// The jump point before it.
-    parent: u32,
-    /// The search this belongs to; others are as good as never written.
-    generation: u16,
-    /// The set of directions in which it was reached at weight `g`.
-    arrivals: u8,
-    /// Expanded at weight `g`.
-    closed: bool,
-}
 
 /// A* whose nodes are jump points.
 ///
@@ -29,20 +16,18 @@ struct Record<W> {
 /// sends runs to both sides, and only where those end, nodes come about.
 #[derive(Clone, Debug, Default)]
 pub(super) struct JumpSearch<W: Copy> {
-    records: Vec<Record<W>>,
-    generation: u16,
-    open: Buckets<W>,
-    layout: Option<Layout>,
+    /// They keep what searches to the same goal have found out.
+    nodes: Nodes<W>,
+    /// By the places of nodes.
+    open: Open<W>,
     /// Something lay beyond what the word orders.
     beyond: bool,
-    /// What the last search expanded, if it is to learn from it.
+    /// The places of what the last search expanded, if it is to learn from it.
     expanded: Vec<u32>,
-    /// What searches to the same goal have found out about jump points.
-    learned: Learned<W>,
     goal: u32,
-    /// Where the last search joined what is left of the last path, and how far along that is.
-    joined: Option<(u32, usize)>,
-    /// The way from there to the join, both ends included.
+    /// The place at which the last search took a short cut, if it did, and where that leads.
+    joined: Option<(u32, Shortcut)>,
+    /// The short cut, both ends included.
     way: Vec<Cell>,
 }
 
@@ -53,6 +38,43 @@ const MOST_BUCKETS: u64 = 1 << 14;
 /// Measured on made-up maps (random cells, rectangles, mazes): without, open maps take up to three
 /// times as long; with 0, mazes twice.
 const SLACK: u32 = 4;
+
+/// So many steps may be taken in vain on ways of two straight pieces to the goal.
+const VAIN: u32 = 16;
+
+/// Where a way of two straight pieces leads.
+#[derive(Clone, Copy, Debug)]
+enum Shortcut {
+    /// To what is left of the last path, so far along.
+    Remnant(usize),
+    Goal,
+}
+
+/// Where a search may end before it gets to the goal.
+struct Ends<'p, W> {
+    remnant: Option<Remnant<'p, W>>,
+    line: Beeline<'p>,
+    goal: Cell,
+    /// So many steps towards the goal were looked at.
+    steps: u32,
+}
+
+impl<W: Word> Ends<'_, W> {
+    /// Where a short cut leads from a cell from which no less is `left`, if one does that is no longer; `open` is left if
+    /// nothing stands in the way. `way` is then the short cut.
+    fn from(&mut self, cell: Cell, left: W, open: W, way: &mut Vec<Cell>) -> Option<Shortcut> {
+        let remnant = self.remnant.as_ref();
+        if let Some(along) = remnant.and_then(|it| it.join(cell, left, way)) {
+            return Some(Shortcut::Remnant(along));
+        }
+        if left > open || self.steps >= VAIN {
+            return None;
+        }
+        let (is_open, steps) = self.line.look(cell, self.goal, way);
+        self.steps += steps;
+        is_open.then_some(Shortcut::Goal)
+    }
+}
 
 impl<W: Word> JumpSearch<W> {
     /// Searches from start to goal, both free. If it learns, searches to come take less. Where a last path is given, it ends
@@ -71,11 +93,12 @@ impl<W: Word> JumpSearch<W> {
             return End::TooFar;
         }
         let layout = *grid.layout();
-        self.begin(&layout);
+        self.nodes.prepare(&layout);
+        self.nodes.begin();
         let (start, goal) = (layout.id(problem.start()), layout.id(problem.goal()));
         // Who does not learn answers as if nothing had been asked before.
         if self.goal != goal || !learns {
-            self.learned.forget();
+            self.nodes.forget();
             self.goal = goal;
         }
         let octile = weights.octile::<W>(grid, problem.moves(), problem.goal());
@@ -87,48 +110,31 @@ impl<W: Word> JumpSearch<W> {
             shift += 1;
         }
         self.open.reset(first, reach, shift);
-        self.records[start as usize] = Record {
-            generation: self.generation,
-            ..Record::default()
-        };
-        self.open.push(first, start, W::default());
-        let remnant = last.and_then(|last| last.remnant(problem, false));
-        let end = self.search(problem, jumps, octile, learns, remnant.as_ref(), cx);
+        let (place, _) = self.nodes.reach(start);
+        let node = self.nodes.at(place);
+        (node.g, node.parent) = (W::default(), place);
+        (node.arrivals, node.closed) = (0, false);
+        self.open.push(first, place, W::default());
+        let ends = learns.then(|| Ends {
+            remnant: last.and_then(|last| last.remnant(problem, false)),
+            line: Beeline::of(problem),
+            goal: problem.goal(),
+            steps: 0,
+        });
+        let end = self.search(problem, jumps, octile, ends, cx);
         if learns && let End::Goal(whole) = end {
             // No way on from what was expanded is shorter than what the way there leaves of the best.
-            let records = &self.records;
-            let found = self.expanded.drain(..).map(|id| {
-                let g = records[id as usize].g;
-                (id, whole.max(g) - g)
-            });
-            self.learned.learn(records.len(), found);
+            for place in self.expanded.drain(..) {
+                let node = self.nodes.at(place);
+                node.left = node.left.max(whole.max(node.g) - node.g);
+            }
         }
         end
     }
 
     /// Cells were freed: what was found out holds no more.
     pub(super) fn forget(&mut self) {
-        self.learned.forget();
-    }
-
-    /// Makes ready for grids of a layout, so that the next search need not.
-    fn prepare(&mut self, layout: &Layout) {
-        if self.layout != Some(*layout) {
-            self.layout = Some(*layout);
-            self.records.clear();
-            self.records.resize(layout.len(), Record::default());
-            self.generation = 0;
-            self.learned = Learned::default();
-        }
-    }
-
-    fn begin(&mut self, layout: &Layout) {
-        self.prepare(layout);
-        if self.generation == u16::MAX {
-            self.records.fill(Record::default());
-            self.generation = 0;
-        }
-        self.generation += 1;
+        self.nodes.forget();
     }
 
     fn search(
@@ -136,8 +142,7 @@ impl<W: Word> JumpSearch<W> {
         problem: &GridProblem,
         jumps: &impl Jumps,
         octile: impl Fn(u32) -> W,
-        learns: bool,
-        remnant: Option<&Remnant<'_, W>>,
+        mut ends: Option<Ends<'_, W>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
         let (grid, moves) = (problem.grid(), problem.moves());
@@ -147,19 +152,19 @@ impl<W: Word> JumpSearch<W> {
         self.beyond = false;
         self.expanded.clear();
         self.joined = None;
-        while let Some((id, g)) = self.open.pop(bound) {
-            let record = &mut self.records[id as usize];
-            if record.closed || { record.g } != g {
+        while let Some((place, g)) = self.open.pop(bound) {
+            let node = self.nodes.at(place);
+            if node.closed || node.g != g {
                 continue;
             }
             if !cx.proceed() {
                 return End::Cut;
             }
-            record.closed = true;
-            if learns {
-                self.expanded.push(id);
+            node.closed = true;
+            if ends.is_some() {
+                self.expanded.push(place);
             }
-            let mut arrivals = record.arrivals;
+            let (id, learned, mut arrivals) = (node.id, node.left, node.arrivals);
             cx.expanded(|| grid.layout().cell(id));
             if id == goal {
                 if g < bound {
@@ -167,14 +172,14 @@ impl<W: Word> JumpSearch<W> {
                 }
                 continue;
             }
-            if let Some(remnant) = remnant {
-                let left = octile(id).max(self.learned.at(id));
-                if g + left < bound
-                    && let Some(along) = remnant.join(grid.layout().cell(id), left, &mut self.way)
-                {
-                    (bound, self.joined) = (g + left, Some((id, along)));
-                    continue;
-                }
+            let open = octile(id);
+            let left = open.max(learned);
+            if g + left < bound
+                && let Some(ends) = &mut ends
+                && let Some(shortcut) = ends.from(grid.layout().cell(id), left, open, &mut self.way)
+            {
+                (bound, self.joined) = (g + left, Some((place, shortcut)));
+                continue;
             }
             let around = grid.around_id(id);
             let mut ways = if arrivals == 0 {
@@ -186,14 +191,14 @@ impl<W: Word> JumpSearch<W> {
                 ways |= onward[arrivals.trailing_zeros() as usize][usize::from(around)];
                 arrivals &= arrivals - 1;
             }
-            let place = jumps.place(id);
-            let enough = g + octile(id) + W::STRAIGHT.times(SLACK);
+            let spot = jumps.place(id);
+            let enough = g + open + W::STRAIGHT.times(SLACK);
             let mut lines = ways & !all_fans;
             while lines != 0 {
                 let k = lines.trailing_zeros() as usize;
                 lines &= lines - 1;
-                if let Some((at, steps)) = jumps.run(place, k) {
-                    self.reach(at, g + W::STRAIGHT.times(steps), k, id, bound, &octile);
+                if let Some((at, steps)) = jumps.run(spot, k) {
+                    self.reach(at, g + W::STRAIGHT.times(steps), k, place, bound, &octile);
                 }
             }
             let mut fans = ways & all_fans;
@@ -202,7 +207,7 @@ impl<W: Word> JumpSearch<W> {
                 fans &= fans - 1;
                 let weight = if k < 4 { W::STRAIGHT } else { W::DIAGONAL };
                 let open = onward[k][0xff];
-                let (mut from, mut from_g) = (place, g);
+                let (mut from, mut from_g) = (spot, g);
                 while let Some((next, steps)) = jumps.stride(from, k) {
                     from = next;
                     from_g = from_g + weight.times(steps);
@@ -210,7 +215,7 @@ impl<W: Word> JumpSearch<W> {
                     // Most of what lies that way may never be asked for: it waits as a node.
                     let leads_away = from_g + octile(from.id) > enough;
                     if from.id == goal || leads_away || ways & !open != 0 {
-                        self.reach(from.id, from_g, k, id, bound, &octile);
+                        self.reach(from.id, from_g, k, place, bound, &octile);
                         break;
                     }
                     let mut lines = ways & !all_fans;
@@ -219,7 +224,7 @@ impl<W: Word> JumpSearch<W> {
                         lines &= lines - 1;
                         if let Some((at, steps)) = jumps.run(from, k) {
                             let at_g = from_g + W::STRAIGHT.times(steps);
-                            self.reach(at, at_g, k, id, bound, &octile);
+                            self.reach(at, at_g, k, place, bound, &octile);
                         }
                     }
                     if ways >> k & 1 == 0 {
@@ -247,33 +252,26 @@ impl<W: Word> JumpSearch<W> {
         bound: W,
         octile: &impl Fn(u32) -> W,
     ) {
-        let generation = self.generation;
-        let record = &mut self.records[at as usize];
+        let (place, is_known) = self.nodes.reach(at);
+        let node = self.nodes.at(place);
         let arrival = 1 << k;
-        let known = record.g;
-        if record.generation == generation && g >= known {
-            if g > known || record.arrivals & arrival != 0 {
+        if is_known && g >= node.g {
+            if g > node.g || node.arrivals & arrival != 0 {
                 return;
             }
             // As good as the best, from elsewhere: other ways on may be due.
-            record.arrivals |= arrival;
-            if !record.closed {
+            node.arrivals |= arrival;
+            if !node.closed {
                 return;
             }
-            record.closed = false;
         } else {
-            *record = Record {
-                g,
-                parent,
-                generation,
-                arrivals: arrival,
-                closed: false,
-            };
+            (node.g, node.parent, node.arrivals) = (g, parent, arrival);
         }
+        node.closed = false;
         // Not consistent any more: what is reached at less is expanded again.
-        let key = g + octile(at).max(self.learned.at(at));
+        let key = g + octile(at).max(node.left);
         if key < bound {
-            self.open.push(key, at, g);
+            self.open.push(key, place, g);
         } else {
             self.beyond = true;
         }
@@ -282,23 +280,21 @@ impl<W: Word> JumpSearch<W> {
     /// The path on which the last search reached its goal, the start first; or its part up to the join.
     fn path(&self, problem: &GridProblem) -> Vec<Cell> {
         let layout = problem.grid().layout();
-        let start = layout.id(problem.start());
-        let (mut id, on) = match self.joined {
-            Some((id, _)) => (id, &self.way[1..]),
-            None => (layout.id(problem.goal()), &[][..]),
+        let (mut place, on) = match self.joined {
+            Some((place, _)) => (place, &self.way[1..]),
+            None => (self.nodes.place(layout.id(problem.goal())), &[][..]),
         };
-        let weight = self.records[id as usize].g;
-        let mut path = Vec::with_capacity(weight.over(W::STRAIGHT) + 1 + on.len());
-        path.push(layout.cell(id));
-        while id != start {
-            let parent = self.records[id as usize].parent;
-            back(
-                problem.moves(),
-                layout.cell(parent),
-                layout.cell(id),
-                &mut path,
-            );
-            id = parent;
+        let mut node = self.nodes.get(place);
+        let mut cell = layout.cell(node.id);
+        let mut path = Vec::with_capacity(node.g.over(W::STRAIGHT) + 1 + on.len());
+        path.push(cell);
+        // The start is before itself.
+        while node.parent != place {
+            place = node.parent;
+            node = self.nodes.get(place);
+            let before = layout.cell(node.id);
+            back(problem.moves(), before, cell, &mut path);
+            cell = before;
         }
         path.reverse();
         path.extend_from_slice(on);
@@ -307,10 +303,9 @@ impl<W: Word> JumpSearch<W> {
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.records.capacity() * size_of::<Record<W>>()
+        self.nodes.bytes()
             + self.open.bytes()
             + self.expanded.capacity() * size_of::<u32>()
-            + self.learned.bytes()
             + self.way.capacity() * size_of::<Cell>()
     }
 }
@@ -403,7 +398,7 @@ impl ExactJumps {
         // The old memory goes before the new comes.
         self.width = Width::default();
         if let Width::Narrow(search) = &mut self.width {
-            search.prepare(layout);
+            search.nodes.prepare(layout);
         }
     }
 
@@ -437,8 +432,8 @@ fn find<W: Word>(
 ) -> Option<Found> {
     match search.run(problem, jumps, learns, last, cx) {
         End::Goal(_) => Some(match search.joined {
-            Some((_, along)) => Found::Joined(search.path(problem), along),
-            None => Found::Path(search.path(problem)),
+            Some((_, Shortcut::Remnant(along))) => Found::Joined(search.path(problem), along),
+            _ => Found::Path(search.path(problem)),
         }),
         End::Exhausted => Some(Found::Nothing),
         End::Cut => Some(Found::Cut),
