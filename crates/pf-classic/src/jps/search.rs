@@ -38,6 +38,8 @@ const MOST_BUCKETS: u64 = 1 << 14;
 /// Measured on made-up maps (random cells, rectangles, mazes): without, open maps take up to three
 /// times as long; with 0, mazes twice.
 const SLACK: u32 = 4;
+/// The same in searches that learn. In drives 4 take a twentieth longer, and a seventh in a maze.
+const FAR: u32 = 16;
 
 /// So many steps may be taken in vain on ways of two straight pieces to the goal.
 const VAIN: u32 = 16;
@@ -101,6 +103,8 @@ impl<W: Word> JumpSearch<W> {
             self.nodes.forget();
             self.goal = goal;
         }
+        // Where a search may end at a short cut, what it expands is dearer than the way there.
+        let slack = W::STRAIGHT.times(if learns { FAR } else { SLACK });
         let octile = weights.octile::<W>(grid, problem.moves(), problem.goal());
         let first = octile(start);
         // A jump raises the key by twice its weight at most.
@@ -121,7 +125,7 @@ impl<W: Word> JumpSearch<W> {
             goal: problem.goal(),
             steps: 0,
         });
-        let end = self.search(problem, jumps, octile, ends, cx);
+        let end = self.search(problem, jumps, octile, slack, ends, cx);
         if learns && let End::Goal(whole) = end {
             // No way on from what was expanded is shorter than what the way there leaves of the best.
             for place in self.expanded.drain(..) {
@@ -142,6 +146,7 @@ impl<W: Word> JumpSearch<W> {
         problem: &GridProblem,
         jumps: &impl Jumps,
         octile: impl Fn(u32) -> W,
+        slack: W,
         mut ends: Option<Ends<'_, W>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
@@ -192,7 +197,7 @@ impl<W: Word> JumpSearch<W> {
                 arrivals &= arrivals - 1;
             }
             let spot = jumps.place(id);
-            let enough = g + open + W::STRAIGHT.times(SLACK);
+            let enough = g + open + slack;
             let mut lines = ways & !all_fans;
             while lines != 0 {
                 let k = lines.trailing_zeros() as usize;
