@@ -256,14 +256,21 @@ impl LastPath {
             return None;
         }
         self.cost = less(self.cost, length(&self.path[from..off.end])) + more;
-        // A vector that grows by itself takes up to twice as much.
-        self.path.reserve_exact(way.len().saturating_sub(off.len()));
-        self.path.splice(off, way.iter().copied());
-        if is_backward {
-            self.path.drain(..self.at);
+        if let Some(begin) = off.end.checked_sub(way.len()).filter(|_| !is_backward) {
+            // What was walked leaves room for it.
+            self.path[begin..off.end].copy_from_slice(way);
+            self.at = begin;
+        } else {
+            // A vector that grows by itself takes up to twice as much.
+            self.path.reserve_exact(way.len().saturating_sub(off.len()));
+            self.path.splice(off, way.iter().copied());
+            if is_backward {
+                self.path.drain(..self.at);
+            }
+            self.at = 0;
         }
-        (self.at, self.broken) = (0, None);
-        self.known = is_short(problem, &self.path).then(|| problem.stamp());
+        self.broken = None;
+        self.known = is_short(problem, &self.path[self.at..]).then(|| problem.stamp());
         Some(self.report(problem, cx))
     }
 

@@ -20,6 +20,8 @@ pub(super) struct JumpMap {
     forced: Vec<u8>,
     /// From one column to the next in the columns' bits.
     pitch: u32,
+    /// The last goal.
+    marked: Option<Marked>,
 }
 
 /// A cell in both orders.
@@ -30,10 +32,12 @@ pub(super) struct Place {
     turned: u32,
 }
 
-/// A cell at which every scan stops, and the straight directions in which it did before.
+/// A cell at which every scan stops, and the straight directions in which it would else.
 #[derive(Clone, Copy, Debug)]
-#[must_use]
-pub(super) struct Marked(Option<(Place, u8)>);
+struct Marked {
+    cell: Cell,
+    stops: u8,
+}
 
 /// Changes of so many cells in a row are followed at once, and those around them:
 const RUN: u32 = 30;
@@ -100,6 +104,7 @@ impl JumpMap {
                 }
             }
         }
+        self.marked = None;
         self.made = Some((grid.stamp(), moves, layout));
     }
 
@@ -116,6 +121,11 @@ impl JumpMap {
                 next += 1;
             }
             self.redo(grid, &layout, first, (next - first.x) as usize);
+            let is_near = |cell: Cell| {
+                (first.x..next + 2).contains(&(cell.x + 1)) && cell.y.abs_diff(first.y) <= 1
+            };
+            // It was made as any other.
+            self.marked = self.marked.filter(|marked| !is_near(marked.cell));
         }
         self.made = Some((grid.stamp(), moves, layout));
     }
@@ -172,24 +182,28 @@ impl JumpMap {
         }
     }
 
-    /// Lets every scan stop at a cell, as at a goal, until [`restore`](Self::restore).
-    pub(super) fn mark(&mut self, cell: Cell) -> Marked {
+    /// Lets every scan stop at a cell, as at a goal, and at no other that was marked. It stays: the next search is to
+    /// the same goal, more often than not.
+    pub(super) fn mark(&mut self, cell: Cell) {
         let Some((_, _, layout)) = self.made else {
-            return Marked(None);
+            return;
         };
+        if self.marked.is_some_and(|marked| marked.cell == cell) {
+            return;
+        }
+        self.unmark(&layout);
         let place = self.place(&layout, layout.id(cell));
-        let before = self.stops.iter().enumerate().fold(0, |stops, (k, bits)| {
+        let stops = self.stops.iter().enumerate().fold(0, |stops, (k, bits)| {
             let at = place.of(k);
             stops | u8::from(bits[at / 64] >> (at % 64) & 1 == 1) << k
         });
         self.set(place, 0b1111);
-        Marked(Some((place, before)))
+        self.marked = Some(Marked { cell, stops });
     }
 
-    /// Undoes [`mark`](Self::mark).
-    pub(super) fn restore(&mut self, marked: Marked) {
-        if let Some((place, before)) = marked.0 {
-            self.set(place, before);
+    fn unmark(&mut self, layout: &Layout) {
+        if let Some(marked) = self.marked.take() {
+            self.set(self.place(layout, layout.id(marked.cell)), marked.stops);
         }
     }
 
@@ -222,7 +236,8 @@ impl JumpMap {
     }
 
     /// At how many free cells scans stop, counted once for each straight direction.
-    pub(super) fn turns(&self, grid: &Grid) -> u64 {
+    pub(super) fn turns(&mut self, grid: &Grid) -> u64 {
+        self.unmark(grid.layout());
         let stops = self.stops.iter().map(|bits| {
             let set: u64 = bits.iter().map(|word| u64::from(word.count_ones())).sum();
             // All that is not free is set, and what follows the last place.

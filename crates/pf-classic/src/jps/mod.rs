@@ -158,12 +158,11 @@ impl Jps {
             return Ok(cx.report(Outcome::Infeasible));
         }
         self.look_at(problem);
-        let goal = self.map.mark(problem.goal());
+        self.map.mark(problem.goal());
         let jumps = Scans::of(problem, &self.map);
         let found = self
             .search
             .find(problem, &jumps, learns, last.as_deref(), cx);
-        self.map.restore(goal);
         if let (Found::Joined(way, along), Some(last)) = (&found, &mut last) {
             let report = last.rejoin(problem, (false, *along), way, cx);
             debug_assert!(
