@@ -22,6 +22,8 @@ pub(super) struct JumpMap {
     pitch: u32,
     /// The last goal.
     marked: Option<Marked>,
+    /// Empty between uses.
+    patch: Patch,
 }
 
 /// A cell in both orders.
@@ -39,10 +41,51 @@ struct Marked {
     stops: u8,
 }
 
-/// Changes of so many cells in a row are followed at once, and those around them:
-const RUN: u32 = 30;
-/// so many in all.
-const ROW: usize = RUN as usize + 2;
+/// Columns and rows of a [`Patch`].
+const SIDE: u32 = 32;
+
+/// Cells that lie near each other, and those around them.
+#[derive(Clone, Debug, Default)]
+struct Patch {
+    /// Column and row of the first, as [`Layout::position`] counts them.
+    left: u32,
+    top: u32,
+    /// How many rows there are.
+    height: usize,
+    /// A bit for each cell.
+    rows: [u32; SIDE as usize],
+}
+
+/// What becomes of a column of a patch.
+#[derive(Clone, Copy, Default)]
+struct Column {
+    dirty: u32,
+    south: u32,
+    north: u32,
+}
+
+impl Patch {
+    /// Adds a cell and those around it, if they lie near the others.
+    fn add(&mut self, (x, y): (u32, u32)) -> bool {
+        if self.height == 0 {
+            (self.left, self.top) = (x.saturating_sub(SIDE / 2), y - 1);
+        }
+        // Of the cell before it.
+        let (x, y) = (
+            (x - 1).wrapping_sub(self.left),
+            (y - 1).wrapping_sub(self.top),
+        );
+        let fits = x.max(y) <= SIDE - 3;
+        if fits {
+            let y = y as usize;
+            for row in &mut self.rows[y..y + 3] {
+                *row |= 0b111 << x;
+            }
+            self.height = self.height.max(y + 3);
+        }
+        fits
+    }
+}
 
 impl JumpMap {
     /// Whether it is that of this grid as it is.
@@ -113,54 +156,76 @@ impl JumpMap {
         let Some((_, moves, layout)) = self.made else {
             return;
         };
-        let mut changed = changed.peekable();
-        while let Some(first) = changed.next() {
-            let mut next = first.x + 1;
-            let is_next = |next| next - first.x < RUN;
-            while is_next(next) && changed.next_if_eq(&Cell::new(next, first.y)).is_some() {
-                next += 1;
+        let mut patch = std::mem::take(&mut self.patch);
+        for cell in changed {
+            let place = layout.position(layout.id(cell));
+            if !patch.add(place) {
+                self.redo(grid, &layout, &mut patch);
+                patch.add(place);
             }
-            self.redo(grid, &layout, first, (next - first.x) as usize);
-            let is_near = |cell: Cell| {
-                (first.x..next + 2).contains(&(cell.x + 1)) && cell.y.abs_diff(first.y) <= 1
-            };
-            // It was made as any other.
-            self.marked = self.marked.filter(|marked| !is_near(marked.cell));
         }
+        self.redo(grid, &layout, &mut patch);
+        self.patch = patch;
         self.made = Some((grid.stamp(), moves, layout));
     }
 
-    /// Makes the bits again of so many cells in a row and of those around them.
-    fn redo(&mut self, grid: &Grid, layout: &Layout, first: Cell, count: usize) {
-        let corner = self.place(layout, layout.id(first) - layout.pitch() - 1);
-        let mut stops = [[0u8; ROW]; 3];
-        let mut id = corner.id;
-        for row in &mut stops {
-            let (mut east, mut west) = (0, 0);
-            for (i, (id, stops)) in (id..).zip(&mut row[..count + 2]).enumerate() {
-                *stops = if grid.is_free_id(id) {
+    /// Makes the bits of a patch again, and empties it.
+    fn redo(&mut self, grid: &Grid, layout: &Layout, patch: &mut Patch) {
+        let first = layout.id_at((patch.left, patch.top));
+        let mut columns = [Column::default(); SIDE as usize];
+        let mut all = 0;
+        let mut id = first;
+        for (y, row) in patch.rows[..patch.height].iter_mut().enumerate() {
+            let dirty = std::mem::take(row);
+            all |= dirty;
+            let (mut rest, mut east, mut west) = (dirty, 0, 0);
+            while rest != 0 {
+                let x = rest.trailing_zeros();
+                rest &= rest - 1;
+                let id = id + x;
+                let stops = if grid.is_free_id(id) {
                     self.forced[usize::from(grid.around_id(id))]
                 } else {
                     0b1111
                 };
-                east |= u64::from(*stops & 1) << i;
-                west |= u64::from(*stops >> 2 & 1) << i;
+                let stops = u32::from(stops);
+                east |= (stops & 1) << x;
+                west |= (stops >> 2 & 1) << x;
+                let column = &mut columns[x as usize];
+                column.dirty |= 1 << y;
+                column.south |= (stops >> 1 & 1) << y;
+                column.north |= (stops >> 3 & 1) << y;
             }
-            put(&mut self.stops[0], id, count + 2, east);
-            put(&mut self.stops[2], id, count + 2, west);
+            if dirty != 0 {
+                put(&mut self.stops[0], id, dirty, east);
+                put(&mut self.stops[2], id, dirty, west);
+            }
             id += layout.pitch();
         }
-        let [above, within, below] = stops;
-        let mut at = corner.turned;
-        for i in 0..count + 2 {
-            // Of three places one below the other those that are set in one direction, as a number.
-            let of = |k: u32| {
-                let bit = |stops: u8| u64::from(stops >> k & 1);
-                bit(above[i]) | bit(within[i]) << 1 | bit(below[i]) << 2
+        patch.height = 0;
+        let turned = self.place(layout, first).turned;
+        while all != 0 {
+            let x = all.trailing_zeros();
+            all &= all - 1;
+            let (column, at) = (columns[x as usize], turned + x * self.pitch);
+            put(&mut self.stops[1], at, column.dirty, column.south);
+            put(&mut self.stops[3], at, column.dirty, column.north);
+        }
+        let is_there = |marked: &Marked| {
+            let (x, y) = layout.position(layout.id(marked.cell));
+            x.wrapping_sub(patch.left) < SIDE && y.wrapping_sub(patch.top) < SIDE
+        };
+        if let Some(marked) = self.marked.filter(is_there) {
+            // Whether it was made again or not, the next search marks it.
+            self.marked = None;
+            let place = self.place(layout, layout.id(marked.cell));
+            let is_free = grid.is_free_id(place.id);
+            let stops = if is_free {
+                self.forced[usize::from(grid.around_id(place.id))]
+            } else {
+                0b1111
             };
-            put(&mut self.stops[1], at, 3, of(1));
-            put(&mut self.stops[3], at, 3, of(3));
-            at += self.pitch;
+            self.set(place, stops);
         }
     }
 
@@ -278,15 +343,15 @@ impl Place {
     }
 }
 
-/// Puts the lowest bits of a word, which has no others, in the place of so many from one on.
+/// Puts those bits of a word in their places from one on that a mask has.
 #[inline]
-fn put(bits: &mut [u64], at: u32, count: usize, word: u64) {
+fn put(bits: &mut [u64], at: u32, mask: u32, word: u32) {
     let (first, shift) = (at as usize / 64, at % 64);
-    let mask = u64::MAX >> (64 - count);
+    let (mask, word) = (u64::from(mask), u64::from(word));
     bits[first] = bits[first] & !(mask << shift) | word << shift;
-    if shift as usize + count > 64 {
-        let rest = 64 - shift;
-        bits[first + 1] = bits[first + 1] & !(mask >> rest) | word >> rest;
+    let beyond = mask >> 1 >> (63 - shift);
+    if beyond != 0 {
+        bits[first + 1] = bits[first + 1] & !beyond | word >> 1 >> (63 - shift);
     }
 }
 
