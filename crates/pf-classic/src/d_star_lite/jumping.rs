@@ -21,6 +21,8 @@ const OPEN: u64 = 64;
 const LITTLE: u64 = 1 << 9;
 /// They are made anew where more cells than that change at once.
 const MANY: usize = 256;
+/// And followed where so many have gathered, or by the next jump.
+const SOON: usize = 64;
 
 impl DStarLite {
     /// How many cells a search may expand: where jump points are at hand, half as many after each that did not find
@@ -143,6 +145,12 @@ impl DStarLite {
             && !self.auto.is_in_use()
             && self.debt <= cells / BITS
             && self.effort <= cells / PLAN
+        {
+            return;
+        }
+        // A few changes are followed faster with those to come.
+        if self.auto.has_jumps()
+            && news(&self.pending, self.behind).is_some_and(|news| news.len() < SOON)
         {
             return;
         }
