@@ -76,20 +76,25 @@ impl<W: Word> Nodes<W> {
         self.places[id as usize]
     }
 
-    /// The place of an id, and whether this search has been there. If not, its `g` and what follows mean nothing.
+    /// The place of an id, its node, and whether this search has been there. If not, its `g` and what follows mean
+    /// nothing.
     #[inline]
-    pub(super) fn reach(&mut self, id: u32) -> (u32, bool) {
-        let place = self.places[id as usize];
-        if let Some(node) = self.all.get_mut(place as usize)
-            && node.id == id
-        {
-            let is_known = node.generation == self.generation;
-            node.generation = self.generation;
-            return (place, is_known);
+    pub(super) fn reach(&mut self, id: u32) -> (u32, &mut Node<W>, bool) {
+        let mut place = self.places[id as usize];
+        let is_node = self
+            .all
+            .get(place as usize)
+            .is_some_and(|node| node.id == id);
+        if !is_node {
+            place = self.add(id);
         }
-        (self.add(id), false)
+        let node = &mut self.all[place as usize];
+        let is_known = is_node && node.generation == self.generation;
+        node.generation = self.generation;
+        (place, node, is_known)
     }
 
+    #[inline]
     fn add(&mut self, id: u32) -> u32 {
         #[expect(
             clippy::cast_possible_truncation,

@@ -56,6 +56,10 @@ impl<W: Word> Open<W> {
         if self.is_many {
             return self.buckets.pop(bound);
         }
+        self.pop_few(bound)
+    }
+
+    fn pop_few(&mut self, bound: W) -> Option<(u32, W)> {
         let mut entries = self.few.iter().enumerate();
         let (mut at, &(mut least, ..)) = entries.next()?;
         // Of equal ones the last, which is the deepest.

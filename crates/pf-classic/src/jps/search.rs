@@ -114,8 +114,7 @@ impl<W: Word> JumpSearch<W> {
             shift += 1;
         }
         self.open.reset(first, reach, shift);
-        let (place, _) = self.nodes.reach(start);
-        let node = self.nodes.at(place);
+        let (place, node, _) = self.nodes.reach(start);
         (node.g, node.parent) = (W::default(), place);
         (node.arrivals, node.closed) = (0, false);
         self.open.push(first, place, W::default());
@@ -257,8 +256,7 @@ impl<W: Word> JumpSearch<W> {
         bound: W,
         octile: &impl Fn(u32) -> W,
     ) {
-        let (place, is_known) = self.nodes.reach(at);
-        let node = self.nodes.at(place);
+        let (place, node, is_known) = self.nodes.reach(at);
         let arrival = 1 << k;
         if is_known && g >= node.g {
             if g > node.g || node.arrivals & arrival != 0 {
