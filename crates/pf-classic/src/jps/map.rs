@@ -1,5 +1,6 @@
 //! Where straight scans stop, a bit per cell and direction.
 
+use super::patch::{Column, Patch, SIDE, put};
 use pf_core::Stamp;
 use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, Successors, bits_from, successors};
 
@@ -39,52 +40,6 @@ pub(super) struct Place {
 struct Marked {
     cell: Cell,
     stops: u8,
-}
-
-/// Columns and rows of a [`Patch`].
-const SIDE: u32 = 32;
-
-/// Cells that lie near each other, and those around them.
-#[derive(Clone, Debug, Default)]
-struct Patch {
-    /// Column and row of the first, as [`Layout::position`] counts them.
-    left: u32,
-    top: u32,
-    /// How many rows there are.
-    height: usize,
-    /// A bit for each cell.
-    rows: [u32; SIDE as usize],
-}
-
-/// What becomes of a column of a patch.
-#[derive(Clone, Copy, Default)]
-struct Column {
-    dirty: u32,
-    south: u32,
-    north: u32,
-}
-
-impl Patch {
-    /// Adds a cell and those around it, if they lie near the others.
-    fn add(&mut self, (x, y): (u32, u32)) -> bool {
-        if self.height == 0 {
-            (self.left, self.top) = (x.saturating_sub(SIDE / 2), y - 1);
-        }
-        // Of the cell before it.
-        let (x, y) = (
-            (x - 1).wrapping_sub(self.left),
-            (y - 1).wrapping_sub(self.top),
-        );
-        let fits = x.max(y) <= SIDE - 3;
-        if fits {
-            let y = y as usize;
-            for row in &mut self.rows[y..y + 3] {
-                *row |= 0b111 << x;
-            }
-            self.height = self.height.max(y + 3);
-        }
-        fits
-    }
 }
 
 impl JumpMap {
@@ -343,18 +298,6 @@ impl Place {
     }
 }
 
-/// Puts those bits of a word in their places from one on that a mask has.
-#[inline]
-fn put(bits: &mut [u64], at: u32, mask: u32, word: u32) {
-    let (first, shift) = (at as usize / 64, at % 64);
-    let (mask, word) = (u64::from(mask), u64::from(word));
-    bits[first] = bits[first] & !(mask << shift) | word << shift;
-    let beyond = mask >> 1 >> (63 - shift);
-    if beyond != 0 {
-        bits[first + 1] = bits[first + 1] & !beyond | word >> 1 >> (63 - shift);
-    }
-}
-
 /// Clears the bits of free cells in an order by columns.
 fn clear_columns(bits: &mut [u64], grid: &Grid, pitch: u32) {
     let layout = grid.layout();
@@ -443,6 +386,9 @@ fn behind(bits: &[u64], at: u32) -> u32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use pf_core::{PlanRng, Problem};
+    use pf_grid::{GridChange, GridProblem};
+    use rand::{RngExt, SeedableRng};
 
     /// A scan stops where the rule says, wherever words begin.
     #[test]
@@ -470,6 +416,50 @@ mod tests {
                     }
                     assert_eq!(map.scan(map.place(&layout, id), k), walked, "{cell} {k}");
                 }
+            }
+        }
+    }
+
+    /// All scans stop where those of a map made for the grid do, whatever came and went, and with whichever goal.
+    #[test]
+    fn changes_are_followed_everywhere() {
+        let mut rng = PlanRng::seed_from_u64(41);
+        for story in 0..400 {
+            let sides = [1, 2, 31, 64, 90];
+            let [width, height] = [0, 1].map(|_| sides[rng.random_range(0..sides.len())]);
+            let moves = Moves::ALL[story % Moves::ALL.len()];
+            let grid = Grid::new(width, height, |_| u8::from(rng.random_range(0..4) > 0)).unwrap();
+            let draw = |rng: &mut PlanRng| {
+                Cell::new(rng.random_range(0..width), rng.random_range(0..height))
+            };
+            let goal = draw(&mut rng);
+            let mut problem = GridProblem::new(grid, goal, goal).unwrap();
+            let mut map = JumpMap::default();
+            map.make(problem.grid(), moves);
+            for _ in 0..4 {
+                map.mark(draw(&mut rng));
+                let [near, count] = [draw(&mut rng), Cell::new(rng.random_range(0..40), 0)];
+                let mut cells: Vec<Cell> = (0..count.x).map(|_| draw(&mut rng)).collect();
+                if rng.random_bool(0.5) {
+                    let is_near =
+                        |cell: &Cell| cell.x.abs_diff(near.x).max(cell.y.abs_diff(near.y)) < 9;
+                    cells = problem.grid().layout().cells().filter(is_near).collect();
+                }
+                let (free, blocked) = cells
+                    .iter()
+                    .partition(|&&cell| problem.grid().is_free(cell));
+                let changes = [GridChange::Blocked(free), GridChange::Freed(blocked)];
+                problem.apply(&changes).unwrap();
+                map.follow(problem.grid(), cells.into_iter());
+                let goal = draw(&mut rng);
+                map.mark(goal);
+                let mut fresh = JumpMap::default();
+                fresh.make(problem.grid(), moves);
+                fresh.mark(goal);
+                assert_eq!(
+                    map.stops, fresh.stops,
+                    "{width} x {height}, {moves}, {story}"
+                );
             }
         }
     }

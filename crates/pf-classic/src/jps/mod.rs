@@ -4,6 +4,7 @@ mod jumps;
 mod map;
 mod nodes;
 mod open;
+mod patch;
 mod prepared;
 mod search;
 mod table;
