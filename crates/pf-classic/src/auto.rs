@@ -127,9 +127,15 @@ impl Auto {
         self.survey.as_ref()
     }
 
-    /// Whether jump points serve a problem's grid well.
+    /// Whether jump points serve a problem's grid well. Their bits are made for it then.
     pub(crate) fn jumps(&mut self, problem: &GridProblem) -> bool {
-        self.survey(problem).is_some_and(|survey| !survey.strewn)
+        let jumps = self.survey(problem).is_some_and(|survey| !survey.strewn);
+        if jumps {
+            // It may have been surveyed before another one was followed.
+            self.jps.look_at(problem);
+            self.known = Some(problem.stamp());
+        }
+        jumps
     }
 
     /// Whether they served the grid that was surveyed last.
@@ -216,6 +222,10 @@ impl Planner<GridProblem> for Auto {
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
+        if self.changed > 0 {
+            // The choice does not depend on what was asked before.
+            self.surveyed = None;
+        }
         self.answer(problem, false, cx)
     }
 }

@@ -1,7 +1,7 @@
 //! What D\* Lite does about changes, beside the oracle.
 #![expect(clippy::unwrap_used, reason = "a test that stumbles has failed")]
 
-use pf_classic::DStarLite;
+use pf_classic::{Auto, DStarLite};
 use pf_conformance::{
     grid::{drawing, oracle},
     seeded,
@@ -243,4 +243,69 @@ fn an_unknown_map_takes_no_distances() {
     }
     // Jump points take less than five bytes a cell, distances twelve more.
     assert!(planner.bytes() < 300 * 300 * 6, "{}", planner.bytes());
+}
+
+/// A robot that goes back to a copy it kept of an earlier problem: what is known of the later one does not hold there.
+#[test]
+fn a_kept_problem_is_not_taken_for_a_later_one() {
+    let wall = || (0..=18).map(|y| Cell::new(10, y));
+    let grid = Grid::new(20, 20, |cell| u8::from(wall().all(|it| it != cell))).unwrap();
+    let mut kept = GridProblem::new(grid, Cell::new(2, 2), Cell::new(2, 17)).unwrap();
+    let mut later = kept.clone();
+    let changes = [
+        GridChange::Freed(wall().collect()),
+        GridChange::Blocked(vec![Cell::new(2, 10)]),
+    ];
+    let mut planner = DStarLite::default();
+    let order = || Context::seeded(0);
+    planner.plan(&kept, &mut order()).unwrap();
+    planner.settle(&kept, &mut order());
+    let revision = later.revise(&changes).unwrap();
+    let report = planner.replan(&revision, &mut order()).unwrap();
+    assert_eq!(cost(&later, &report), oracle(&later));
+    planner.settle(&later, &mut order());
+    planner.plan(&kept, &mut order()).unwrap();
+    planner.settle(&kept, &mut order());
+    let changes = [GridChange::GoalMoved(Cell::new(17, 10))];
+    let revision = kept.revise(&changes).unwrap();
+    let report = planner.replan(&revision, &mut order()).unwrap();
+    assert_eq!(cost(&kept, &report), oracle(&kept));
+}
+
+/// A plan is the same whatever was asked before: also where a map has come to look otherwise, by less than what is
+/// looked at anew.
+#[test]
+fn a_plan_does_not_depend_on_replans_before_it() {
+    let block = |cell: Cell| (20..30).contains(&cell.x) && (20..30).contains(&cell.y);
+    let grid = Grid::new(100, 100, |cell| u8::from(!block(cell))).unwrap();
+    let problem = GridProblem::new(grid, Cell::new(25, 5), Cell::new(25, 45)).unwrap();
+    let mut problem = problem.with_moves(Moves::Orthogonal);
+    let order = || Context::seeded(0);
+    let (mut d_star, mut auto) = (DStarLite::default(), Auto::default());
+    for step in 0..4 {
+        for planner in [&mut d_star as &mut dyn Replanner<_>, &mut auto] {
+            planner.settle(&problem, &mut order());
+            let used = planner.plan(&problem, &mut order()).unwrap();
+            planner.settle(&problem, &mut order());
+            let fresh: &mut dyn Replanner<_> = match planner.name() {
+                "D* Lite" => &mut DStarLite::default(),
+                _ => &mut Auto::default(),
+            };
+            let fresh = fresh.plan(&problem, &mut order()).unwrap();
+            let path =
+                |report: &Report<GridProblem>| report.outcome.solved().unwrap().solution.clone();
+            assert_eq!(path(&used), path(&fresh), "{}, {step}", planner.name());
+            assert_eq!(
+                used.stats.expanded,
+                fresh.stats.expanded,
+                "{}, {step}",
+                planner.name()
+            );
+        }
+        let single = |i: u32| Cell::new(40 + i % 5 * 12, 2 + 4 * i + step);
+        let changes = [GridChange::Blocked((0..20).map(single).collect())];
+        let revision = problem.revise(&changes).unwrap();
+        d_star.replan(&revision, &mut order()).unwrap();
+        auto.replan(&revision, &mut order()).unwrap();
+    }
 }

@@ -20,7 +20,7 @@ const OPEN: u64 = 64;
 /// Jumps take little that expand so many cells.
 const LITTLE: u64 = 1 << 9;
 /// They are made anew where more cells than that change at once.
-const MANY: usize = 256;
+const MANY: usize = 256 + SOON;
 /// And followed where so many have gathered, or by the next jump.
 const SOON: usize = 64;
 
@@ -114,16 +114,20 @@ impl DStarLite {
 
     /// Whether a plan is made by jump points: where so little stands about that distances would tell hardly more than
     /// how far it is.
-    pub(super) fn goes_by_jumps(&mut self, problem: &GridProblem) -> bool {
+    pub(super) fn goes_by_jumps(
+        &mut self,
+        problem: &GridProblem,
+        cx: &mut Context<'_, GridProblem>,
+    ) -> bool {
         let grid = problem.grid();
         let cells = u64::from(grid.width()) * u64::from(grid.height());
         let blocked = cells - u64::from(grid.free_cells());
-        if self.params.eager || !grid.is_uniform() || blocked * OPEN > cells {
-            return false;
+        let is_open = !self.params.eager && grid.is_uniform() && blocked * OPEN <= cells;
+        if is_open && cx.proceed() {
+            self.be_idle(problem);
+            return true;
         }
-        self.be_idle(problem);
-        self.prepare_jumps(problem);
-        self.auto.has_jumps()
+        false
     }
 
     /// Knows nothing but the problem.
@@ -133,7 +137,7 @@ impl DStarLite {
         (self.known, self.effort) = (Some(problem.stamp()), 0);
     }
 
-    /// Whether answers do well without distances: while nothing stood between start and goal, and jumps take little.
+    /// Whether answers do well without distances: after a plan that took none, while jumps take little.
     pub(super) fn rests_on_jumps(&self) -> bool {
         self.is_idle() && self.jump_effort <= LITTLE && self.auto.has_jumps()
     }

@@ -51,6 +51,9 @@ params!(DStarLiteParams {
 /// out; `repaired`, from repaired distances; `afresh`, by a search from the robot where nothing of use is known: the
 /// distances are made in `settle` then. One iteration is one expansion.
 ///
+/// Where nothing stands between start and goal, or hardly anything on the map, a plan takes no distances, nor does
+/// `settle` make any as long as jumps take little: they would say no more than how far it is.
+///
 /// ```
 /// use pf_core::{Context, Planner, Problem, Replanner};
 /// use pf_classic::DStarLite;
@@ -273,7 +276,7 @@ impl DStarLite {
         })
     }
 
-    /// Whether no distances are known nor anything else, as nothing stood in the way of a plan.
+    /// Whether no distances are known nor anything else, as the last plan took none.
     fn is_idle(&self) -> bool {
         guided!(&self.width, guided => guided.is_idle())
     }
@@ -367,7 +370,7 @@ impl Planner<GridProblem> for DStarLite {
         if let Some(report) = self.go_straight(problem, cx) {
             return Ok(report);
         }
-        if self.goes_by_jumps(problem) {
+        if self.goes_by_jumps(problem, cx) {
             return self.auto.jump(problem, false, &mut self.last_path, cx);
         }
         let found = self.refresh(problem, self.params.eager, cx);
@@ -450,9 +453,9 @@ impl Replanner<GridProblem> for DStarLite {
     }
 
     /// Lets a plan go on to what lies near the start, makes the bits of jump points or follows what has changed with
-    /// them, if there is reason to, makes the distances after an answer of which nothing was known, and repairs them,
-    /// or makes them anew, if answers have cost more than that since they were last right: in iterations, an
-    /// expansion each.
+    /// them, if there is reason to, makes the distances after an answer of which nothing was known, unless jumps do
+    /// without, and repairs them, or makes them anew, if answers have cost more than that since they were last right: in
+    /// iterations, an expansion each.
     fn settle(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) {
         if self.known != Some(problem.stamp()) || !cx.proceed() {
             return;

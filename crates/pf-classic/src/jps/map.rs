@@ -126,6 +126,9 @@ impl JumpMap {
 
     /// Makes the bits of a patch again, and empties it.
     fn redo(&mut self, grid: &Grid, layout: &Layout, patch: &mut Patch) {
+        if patch.height == 0 {
+            return;
+        }
         let first = layout.id_at((patch.left, patch.top));
         let mut columns = [Column::default(); SIDE as usize];
         let mut all = 0;
@@ -462,5 +465,19 @@ mod tests {
                 );
             }
         }
+    }
+
+    #[test]
+    fn nothing_is_followed_where_nothing_changed() {
+        let mut map = JumpMap::default();
+        let tall = Grid::open(1, 70_000).unwrap();
+        map.make(&tall, Moves::Always);
+        map.follow(&tall, std::iter::once(Cell::new(0, 69_990)));
+        let wide = Grid::open(70_000, 1).unwrap();
+        map.make(&wide, Moves::Always);
+        map.follow(&wide, std::iter::empty());
+        let mut fresh = JumpMap::default();
+        fresh.make(&wide, Moves::Always);
+        assert_eq!(map.stops, fresh.stops);
     }
 }

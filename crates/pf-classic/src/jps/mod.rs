@@ -75,7 +75,8 @@ impl Jps {
         self.map.turns(problem.grid())
     }
 
-    fn look_at(&mut self, problem: &GridProblem) {
+    /// Makes its bits for a problem's grid, unless they are of that.
+    pub(crate) fn look_at(&mut self, problem: &GridProblem) {
         if !self.map.is_of(problem.grid(), problem.moves()) {
             self.map.make(problem.grid(), problem.moves());
             self.search.forget();

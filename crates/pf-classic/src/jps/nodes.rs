@@ -102,6 +102,10 @@ impl<W: Word> Nodes<W> {
         )]
         let place = self.all.len() as u32;
         self.places[id as usize] = place;
+        if self.all.len() == self.all.capacity() {
+            // A vector that grows by itself takes up to twice as much.
+            self.all.reserve_exact(self.all.len() / 2 + 64);
+        }
         self.all.push(Node {
             id,
             g: W::default(),

@@ -6,10 +6,11 @@ pub(super) const SIDE: u32 = 32;
 /// Cells that lie near each other, and those around them.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Patch {
-    /// Column and row of the first, as [`Layout::position`] counts them.
+    /// The first column, that of the border being 0.
     pub(super) left: u32,
+    /// The first row.
     pub(super) top: u32,
-    /// How many rows there are.
+    /// How many rows there are; without any the rest means nothing.
     pub(super) height: usize,
     /// A bit for each cell.
     pub(super) rows: [u32; SIDE as usize],
