@@ -92,49 +92,34 @@ impl DStarLite {
         Ok(report)
     }
 
-    /// Answers a plan by a way of two straight pieces, if one is open.
-    pub(super) fn go_straight(
+    /// Answers a plan without distances where they would tell hardly more than how far it is: by a way of two straight
+    /// pieces, if one is open; by jump points, where little stands about.
+    pub(super) fn go_without_distances(
         &mut self,
         problem: &GridProblem,
         cx: &mut Context<'_, GridProblem>,
-    ) -> Option<Report<GridProblem>> {
-        if self.params.eager || !problem.grid().is_uniform() {
-            return None;
+    ) -> Result<Option<Report<GridProblem>>, Unsupported> {
+        let grid = problem.grid();
+        if self.params.eager || !grid.is_uniform() {
+            return Ok(None);
         }
         let mut way = Vec::new();
-        let is_open = Beeline::of(problem).way(problem.start(), problem.goal(), &mut way);
-        if !is_open || !cx.proceed() {
-            return None;
-        }
-        self.be_idle(problem);
-        let report = cx.answer(problem, way, Proof::Optimal);
-        self.last_path.remember(problem, &report);
-        Some(report)
-    }
-
-    /// Whether a plan is made by jump points: where so little stands about that distances would tell hardly more than
-    /// how far it is.
-    pub(super) fn goes_by_jumps(
-        &mut self,
-        problem: &GridProblem,
-        cx: &mut Context<'_, GridProblem>,
-    ) -> bool {
-        let grid = problem.grid();
+        let is_straight = Beeline::of(problem).way(problem.start(), problem.goal(), &mut way);
         let cells = u64::from(grid.width()) * u64::from(grid.height());
         let blocked = cells - u64::from(grid.free_cells());
-        let is_open = !self.params.eager && grid.is_uniform() && blocked * OPEN <= cells;
-        if is_open && cx.proceed() {
-            self.be_idle(problem);
-            return true;
+        if !is_straight && blocked * OPEN > cells || !cx.proceed() {
+            return Ok(None);
         }
-        false
-    }
-
-    /// Knows nothing but the problem.
-    fn be_idle(&mut self, problem: &GridProblem) {
         self.forget_changes();
         self.give_up(problem);
         (self.known, self.effort) = (Some(problem.stamp()), 0);
+        if !is_straight {
+            let report = self.auto.jump(problem, false, &mut self.last_path, cx)?;
+            return Ok(Some(report));
+        }
+        let report = cx.answer(problem, way, Proof::Optimal);
+        self.last_path.remember(problem, &report);
+        Ok(Some(report))
     }
 
     /// Whether answers do well without distances: after a plan that took none, while jumps take little.

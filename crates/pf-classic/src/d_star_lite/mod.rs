@@ -367,11 +367,8 @@ impl Planner<GridProblem> for DStarLite {
             return Ok(cx.report(Outcome::Infeasible));
         }
         self.jump_effort = 0;
-        if let Some(report) = self.go_straight(problem, cx) {
+        if let Some(report) = self.go_without_distances(problem, cx)? {
             return Ok(report);
-        }
-        if self.goes_by_jumps(problem, cx) {
-            return self.auto.jump(problem, false, &mut self.last_path, cx);
         }
         let found = self.refresh(problem, self.params.eager, cx);
         Ok(self.report(problem, found, cx))

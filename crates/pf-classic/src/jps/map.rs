@@ -129,6 +129,13 @@ impl JumpMap {
         if patch.height == 0 {
             return;
         }
+        let is_there = |marked: Marked| {
+            let (x, y) = layout.position(layout.id(marked.cell));
+            x.wrapping_sub(patch.left) < SIDE && y.wrapping_sub(patch.top) < SIDE
+        };
+        if self.marked.is_some_and(is_there) {
+            self.unmark(layout);
+        }
         let first = layout.id_at((patch.left, patch.top));
         let mut columns = [Column::default(); SIDE as usize];
         let mut all = 0;
@@ -168,22 +175,6 @@ impl JumpMap {
             let (column, at) = (columns[x as usize], turned + x * self.pitch);
             put(&mut self.stops[1], at, column.dirty, column.south);
             put(&mut self.stops[3], at, column.dirty, column.north);
-        }
-        let is_there = |marked: &Marked| {
-            let (x, y) = layout.position(layout.id(marked.cell));
-            x.wrapping_sub(patch.left) < SIDE && y.wrapping_sub(patch.top) < SIDE
-        };
-        if let Some(marked) = self.marked.filter(is_there) {
-            // Whether it was made again or not, the next search marks it.
-            self.marked = None;
-            let place = self.place(layout, layout.id(marked.cell));
-            let is_free = grid.is_free_id(place.id);
-            let stops = if is_free {
-                self.forced[usize::from(grid.around_id(place.id))]
-            } else {
-                0b1111
-            };
-            self.set(place, stops);
         }
     }
 
