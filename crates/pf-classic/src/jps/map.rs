@@ -1,8 +1,11 @@
 //! Where straight scans stop, a bit per cell and direction.
 
-use super::patch::{Column, Patch, SIDE, put};
+use super::{
+    patch::{INNER, Patch, ones, put},
+    turns::stops,
+};
 use pf_core::Stamp;
-use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, Successors, bits_from, successors};
+use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, bits_from};
 
 /// For each straight direction a bit per cell, set where a scan in that direction stops: at blocked
 /// cells and at *turns*, cells from which the search may go on elsewhere than straight on.
@@ -15,16 +18,14 @@ use pf_grid::{Cell, DIRECTIONS, Grid, Layout, Moves, Successors, bits_from, succ
 #[derive(Clone, Debug, Default)]
 pub(super) struct JumpMap {
     made: Option<(Stamp, Moves, Layout)>,
-    /// By straight direction.
-    stops: [Vec<u64>; 4],
-    /// By set of free neighbours: the straight directions in which a scan stops at such a cell.
-    forced: Vec<u8>,
-    /// From one column to the next in the columns' bits.
+    /// In rows, for scans to the east and to the west; and in columns, to the south and to the north.
+    stops: [Vec<[u64; 2]>; 2],
+    /// The free cells, in columns.
+    free: Vec<u64>,
+    /// From one column to the next.
     pitch: u32,
     /// The last goal.
     marked: Option<Marked>,
-    /// Empty between uses.
-    patch: Patch,
 }
 
 /// A cell in both orders.
@@ -51,59 +52,58 @@ impl JumpMap {
     /// Makes it for a grid.
     pub(super) fn make(&mut self, grid: &Grid, moves: Moves) {
         let layout = *grid.layout();
-        self.forced.clear();
-        self.forced
-            .extend((0..256).map(|around| Self::stops_of(successors(moves), around)));
-        self.pitch = layout.height() + 1;
-        let turned = (layout.width() as usize + 2) * self.pitch as usize + 1;
-        // Where all is free around a cell, scans in some directions stop at each, in others at none.
-        let open = self.forced[0xff];
-        for (k, ids) in [layout.len(), turned].into_iter().enumerate() {
-            let stops = &mut self.stops[k];
-            stops.clear();
-            stops.resize(ids / 64 + 1, u64::MAX);
-            if open >> k & 1 == 1 {
-                // It is so in both directions.
-            } else if k == 0 {
-                for (first, word) in (0..).step_by(64).zip(stops) {
-                    *word = !grid.free_bits(first);
-                }
-            } else {
-                clear_columns(stops, grid, self.pitch);
+        let (width, height) = (layout.width(), layout.height());
+        (self.made, self.marked) = (Some((grid.stamp(), moves, layout)), None);
+        self.pitch = height + 1;
+        lay(&mut self.stops[0], [height, width]);
+        lay(&mut self.stops[1], [width, height]);
+        self.free.clear();
+        self.free
+            .extend(self.stops[1].iter().map(|[stops, _]| !stops));
+        if moves == Moves::Orthogonal {
+            self.stops[1].fill([u64::MAX; 2]);
+        }
+        for top in (0..height).step_by(INNER as usize) {
+            for left in (0..width).step_by(INNER as usize) {
+                self.look_at(grid, moves, (left, top));
             }
         }
-        let [east, south, west, north] = &mut self.stops;
-        west.clone_from(east);
-        north.clone_from(south);
-        // Cells that are free, as are both beside them in their row.
-        #[expect(clippy::cast_possible_truncation, reason = "ids")]
-        let firsts = (0..layout.len() as u32).step_by(64);
-        let beside = |first: u32| grid.free_bits(first.wrapping_sub(1)) & grid.free_bits(first + 1);
-        let wide = |first| grid.free_bits(first) & beside(first);
-        let wide: Vec<u64> = firsts.clone().map(wide).collect();
-        let pitch = layout.pitch();
-        for first in firsts {
-            let free = grid.free_bits(first);
-            if free == 0 {
-                continue;
+    }
+
+    /// Looks for blocked cells in the inner rows and columns of a patch, to an open map.
+    fn look_at(&mut self, grid: &Grid, moves: Moves, (left, top): (u32, u32)) {
+        let layout = grid.layout();
+        let within = u64::MAX >> (64 - INNER.min(layout.width() - left));
+        let mut patch = Patch {
+            left,
+            top,
+            ..Patch::default()
+        };
+        let mut blocked = [0; 64];
+        let rows = INNER.min(layout.height() - top);
+        for (y, row) in (0..rows).zip(&mut blocked) {
+            *row = !grid.free_bits(layout.id_at((left + 1, top + 1 + y))) & within;
+            if *row != 0 {
+                patch.rows |= 0b111 << y;
+                patch.columns |= *row | *row << 1 | *row << 2;
             }
-            // Where there is no row above, cells are looked at one by one.
-            let rows = [first.wrapping_sub(pitch), first, first + pitch];
-            let rows = rows.map(|first| bits_from(&wide, first));
-            // Those that have something blocked beside them.
-            let mut turns = free & !(rows[0] & rows[1] & rows[2]);
-            while turns != 0 {
-                let id = first + turns.trailing_zeros();
-                turns &= turns - 1;
-                let stops = self.forced[usize::from(grid.around_id(id))];
-                // Elsewhere it is so already.
-                if stops != open {
-                    self.set(self.place(&layout, id), stops);
+        }
+        if patch.rows == 0 {
+            return;
+        }
+        transpose(&mut blocked);
+        for (x, column) in (0..).zip(blocked).take(INNER as usize) {
+            let at = (left + 1 + x) * self.pitch + top + 1;
+            let (word, shift) = (at as usize / 64, at % 64);
+            if column != 0 {
+                self.free[word] &= !(column << shift);
+                let beyond = column >> 1 >> (63 - shift);
+                if beyond != 0 {
+                    self.free[word + 1] &= !beyond;
                 }
             }
         }
-        self.marked = None;
-        self.made = Some((grid.stamp(), moves, layout));
+        self.redo(grid, moves, &patch);
     }
 
     /// Follows changes of cells on the grid it was made of.
@@ -111,88 +111,72 @@ impl JumpMap {
         let Some((_, moves, layout)) = self.made else {
             return;
         };
-        let mut patch = std::mem::take(&mut self.patch);
+        let mut patch = Patch::default();
         for cell in changed {
             let place = layout.position(layout.id(cell));
+            let at = place.0 * self.pitch + place.1;
+            let word = &mut self.free[at as usize / 64];
+            *word = *word & !(1 << (at % 64)) | u64::from(grid.is_free(cell)) << (at % 64);
             if !patch.add(place) {
-                self.redo(grid, &layout, &mut patch);
+                self.redo(grid, moves, &patch);
+                patch = Patch::default();
                 patch.add(place);
             }
         }
-        self.redo(grid, &layout, &mut patch);
-        self.patch = patch;
+        self.redo(grid, moves, &patch);
         self.made = Some((grid.stamp(), moves, layout));
     }
 
-    /// Makes the bits of a patch again, and empties it.
-    fn redo(&mut self, grid: &Grid, layout: &Layout, patch: &mut Patch) {
-        if patch.height == 0 {
-            return;
-        }
-        let is_there = |marked: Marked| {
-            let (x, y) = layout.position(layout.id(marked.cell));
-            x.wrapping_sub(patch.left) < SIDE && y.wrapping_sub(patch.top) < SIDE
-        };
-        if self.marked.is_some_and(is_there) {
+    /// Makes the bits of a patch again.
+    fn redo(&mut self, grid: &Grid, moves: Moves, patch: &Patch) {
+        let layout = grid.layout();
+        let is_there = |marked: &mut Marked| patch.holds(layout.position(layout.id(marked.cell)));
+        if self.marked.as_mut().is_some_and(is_there) {
             self.unmark(layout);
         }
-        let first = layout.id_at((patch.left, patch.top));
-        let mut columns = [Column::default(); SIDE as usize];
-        let mut all = 0;
-        let mut id = first;
-        for (y, row) in patch.rows[..patch.height].iter_mut().enumerate() {
-            let dirty = std::mem::take(row);
-            all |= dirty;
-            let (mut rest, mut east, mut west) = (dirty, 0, 0);
-            while rest != 0 {
-                let x = rest.trailing_zeros();
-                rest &= rest - 1;
-                let id = id + x;
-                let stops = if grid.is_free_id(id) {
-                    self.forced[usize::from(grid.around_id(id))]
-                } else {
-                    0b1111
-                };
-                let stops = u32::from(stops);
-                east |= (stops & 1) << x;
-                west |= (stops >> 2 & 1) << x;
-                let column = &mut columns[x as usize];
-                column.dirty |= 1 << y;
-                column.south |= (stops >> 1 & 1) << y;
-                column.north |= (stops >> 3 & 1) << y;
-            }
-            if dirty != 0 {
-                put(&mut self.stops[0], id, dirty, east);
-                put(&mut self.stops[2], id, dirty, west);
-            }
-            id += layout.pitch();
+        for y in ones(patch.rows) {
+            let first = layout.id_at((patch.left, patch.top + y));
+            self.redo_row(grid, moves, first, patch.columns);
         }
-        patch.height = 0;
-        let turned = self.place(layout, first).turned;
-        while all != 0 {
-            let x = all.trailing_zeros();
-            all &= all - 1;
-            let (column, at) = (columns[x as usize], turned + x * self.pitch);
-            put(&mut self.stops[1], at, column.dirty, column.south);
-            put(&mut self.stops[3], at, column.dirty, column.north);
+        for x in ones(patch.columns) {
+            let first = (patch.left + x) * self.pitch + patch.top;
+            self.redo_column(moves, first, patch.rows);
         }
     }
 
-    /// In which straight directions a scan stops at a free cell with these free neighbours.
-    fn stops_of(successors: &Successors, around: usize) -> u8 {
-        (0..4).fold(0, |stops, k| {
-            let elsewhere = successors[k][around] & !(1 << k) != 0;
-            stops | u8::from(elsewhere) << k
-        })
-    }
-
+    /// Makes those bits of a row from a place on again that a mask has.
     #[inline]
+    fn redo_row(&mut self, grid: &Grid, moves: Moves, first: u32, mask: u64) {
+        let pitch = grid.layout().pitch();
+        let stops = stops(moves, |at| grid.free_bits(at), pitch, first);
+        put(&mut self.stops[0], first, mask, stops);
+    }
+
+    /// The same of a column. Without diagonals no scan goes up or down.
+    #[inline]
+    fn redo_column(&mut self, moves: Moves, first: u32, mask: u64) {
+        if moves != Moves::Orthogonal {
+            let free = |at| bits_from(&self.free, at);
+            let stops = stops(moves, free, self.pitch, first);
+            put(&mut self.stops[1], first, mask, stops);
+        }
+    }
+
+    /// The word in which the bit of a place for a straight direction is, and which it is.
+    fn word(&mut self, place: Place, k: usize) -> (&mut u64, u32) {
+        let at = if k.is_multiple_of(2) {
+            place.id
+        } else {
+            place.turned
+        };
+        (&mut self.stops[k % 2][at as usize / 64][k / 2], at % 64)
+    }
+
+    /// Lets scans stop at a place in these straight directions.
     fn set(&mut self, place: Place, stops: u8) {
-        for (k, bits) in self.stops.iter_mut().enumerate() {
-            let at = place.of(k);
-            // No branch: whether a scan stops is hard to guess.
-            let word = &mut bits[at / 64];
-            *word = *word & !(1 << (at % 64)) | u64::from(stops >> k & 1) << (at % 64);
+        for k in 0..4 {
+            let (word, bit) = self.word(place, k);
+            *word = *word & !(1 << bit) | u64::from(stops >> k & 1) << bit;
         }
     }
 
@@ -207,9 +191,9 @@ impl JumpMap {
         }
         self.unmark(&layout);
         let place = self.place(&layout, layout.id(cell));
-        let stops = self.stops.iter().enumerate().fold(0, |stops, (k, bits)| {
-            let at = place.of(k);
-            stops | u8::from(bits[at / 64] >> (at % 64) & 1 == 1) << k
+        let stops = (0..4).fold(0, |stops, k| {
+            let (word, bit) = self.word(place, k);
+            stops | u8::from(*word >> bit & 1 == 1) << k
         });
         self.set(place, 0b1111);
         self.marked = Some(Marked { cell, stops });
@@ -244,26 +228,15 @@ impl JumpMap {
         match k {
             0 => ahead(&self.stops[0], place.id),
             1 => ahead(&self.stops[1], place.turned),
-            2 => behind(&self.stops[2], place.id),
-            _ => behind(&self.stops[3], place.turned),
+            2 => behind(&self.stops[0], place.id),
+            _ => behind(&self.stops[1], place.turned),
         }
-    }
-
-    /// At how many free cells scans stop, counted once for each straight direction.
-    pub(super) fn turns(&mut self, grid: &Grid) -> u64 {
-        self.unmark(grid.layout());
-        let stops = self.stops.iter().map(|bits| {
-            let set: u64 = bits.iter().map(|word| u64::from(word.count_ones())).sum();
-            // All that is not free is set, and what follows the last place.
-            set + u64::from(grid.free_cells()) - bits.len() as u64 * 64
-        });
-        stops.sum()
     }
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        let words: usize = self.stops.iter().map(Vec::capacity).sum();
-        words * size_of::<u64>() + self.forced.capacity()
+        let words: usize = self.stops.iter().map(|lines| 2 * lines.capacity()).sum();
+        (words + self.free.capacity()) * size_of::<u64>()
     }
 }
 
@@ -271,15 +244,6 @@ impl Place {
     /// For who needs no turned bits.
     pub(super) fn only(id: u32) -> Self {
         Self { id, turned: 0 }
-    }
-
-    /// Where it is in the bits of a straight direction.
-    fn of(self, k: usize) -> usize {
-        (if k.is_multiple_of(2) {
-            self.id
-        } else {
-            self.turned
-        }) as usize
     }
 
     /// The place one step on.
@@ -292,30 +256,16 @@ impl Place {
     }
 }
 
-/// Clears the bits of free cells in an order by columns.
-fn clear_columns(bits: &mut [u64], grid: &Grid, pitch: u32) {
-    let layout = grid.layout();
-    let (width, height) = (layout.width(), layout.height());
-    for y in (0..height).step_by(64) {
-        for x in (0..width).step_by(64) {
-            let mut block = [0; 64];
-            for (row, y) in block.iter_mut().zip(y..height) {
-                let free = grid.free_bits(layout.id(Cell { x, y }));
-                // What lies beyond the row is the next one.
-                *row = free & u64::MAX >> 64u32.saturating_sub(width - x);
-            }
-            if block.iter().any(|&row| row != u64::MAX) {
-                transpose(&mut block);
-            }
-            for (column, x) in block.into_iter().zip(x..width) {
-                let at = (x + 1) * pitch + y + 1;
-                let (word, shift) = (at as usize / 64, at % 64);
-                bits[word] &= !(column << shift);
-                if let Some(next) = bits.get_mut(word + 1) {
-                    *next &= !(column >> 1 >> (63 - shift));
-                }
-            }
-        }
+/// Lays so many lines of so many cells each, at which no scan stops but at the border.
+fn lay(stops: &mut Vec<[u64; 2]>, [lines, cells]: [u32; 2]) {
+    let pitch = cells as usize + 1;
+    let last = (lines as usize + 1) * pitch;
+    let words = (last + pitch) / 64 + 1;
+    stops.clear();
+    stops.resize(words, [0; 2]);
+    let before = (pitch..last).step_by(pitch);
+    for at in (0..pitch).chain(before).chain(last..words * 64) {
+        stops[at / 64] = stops[at / 64].map(|word| word | 1 << (at % 64));
     }
 }
 
@@ -337,17 +287,17 @@ fn transpose(block: &mut [u64; 64]) {
 
 /// How far the first bit after one is. The border stops every scan.
 #[inline]
-fn ahead(bits: &[u64], at: u32) -> u32 {
+fn ahead(bits: &[[u64; 2]], at: u32) -> u32 {
     let from = at + 1;
     let mut words = bits[from as usize / 64..].iter();
     let first = words
         .next()
-        .map_or(u64::MAX, |word| word & u64::MAX << (from % 64));
+        .map_or(u64::MAX, |[word, _]| word & u64::MAX << (from % 64));
     if first != 0 {
         return first.trailing_zeros() - from % 64 + 1;
     }
     let mut steps = 64 - from % 64 + 1;
-    for word in words {
+    for [word, _] in words {
         if *word != 0 {
             return steps + word.trailing_zeros();
         }
@@ -358,17 +308,17 @@ fn ahead(bits: &[u64], at: u32) -> u32 {
 
 /// How far the last bit before one is.
 #[inline]
-fn behind(bits: &[u64], at: u32) -> u32 {
+fn behind(bits: &[[u64; 2]], at: u32) -> u32 {
     let from = at - 1;
     let mut words = bits[..=from as usize / 64].iter().rev();
     let first = words
         .next()
-        .map_or(u64::MAX, |word| word << (63 - from % 64));
+        .map_or(u64::MAX, |[_, word]| word << (63 - from % 64));
     if first != 0 {
         return first.leading_zeros() + 1;
     }
     let mut steps = from % 64 + 2;
-    for word in words {
+    for [_, word] in words {
         if *word != 0 {
             return steps + word.leading_zeros();
         }
@@ -381,7 +331,7 @@ fn behind(bits: &[u64], at: u32) -> u32 {
 mod tests {
     use super::*;
     use pf_core::{PlanRng, Problem};
-    use pf_grid::{GridChange, GridProblem};
+    use pf_grid::{GridChange, GridProblem, successors};
     use rand::{RngExt, SeedableRng};
 
     /// A scan stops where the rule says, wherever words begin.
@@ -397,7 +347,9 @@ mod tests {
             let layout = *grid.layout();
             for cell in layout.cells().filter(|&cell| grid.is_free(cell)) {
                 let id = layout.id(cell);
-                for k in 0..4 {
+                // Without diagonals no scan goes up or down.
+                let scanned = if moves == Moves::Orthogonal { 2 } else { 1 };
+                for k in (0..4).step_by(scanned) {
                     let mut at = id;
                     let mut walked = 0;
                     let stops = |at| {

@@ -8,6 +8,7 @@ mod patch;
 mod prepared;
 mod search;
 mod table;
+mod turns;
 
 pub use prepared::{Prepared, PreparedParams};
 
@@ -66,13 +67,6 @@ impl Jps {
     /// None today.
     pub fn new(_: JpsParams) -> Result<Self, InvalidParams> {
         Ok(Self::default())
-    }
-
-    /// How often straight runs would have to stop at the free cells of a problem's grid, counted once
-    /// for each straight direction: what makes jump points few or many.
-    pub(crate) fn turns(&mut self, problem: &GridProblem) -> u64 {
-        self.look_at(problem);
-        self.map.turns(problem.grid())
     }
 
     /// Makes its bits for a problem's grid, unless they are of that.

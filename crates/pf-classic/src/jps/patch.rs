@@ -1,60 +1,67 @@
 //! Changed cells that lie near each other.
 
-/// Columns and rows of a [`Patch`].
-pub(super) const SIDE: u32 = 32;
+use super::turns::RUN;
 
-/// Cells that lie near each other, and those around them.
-#[derive(Clone, Debug, Default)]
+/// So many rows and columns of a patch have another one on both sides.
+pub(super) const INNER: u32 = RUN - 2;
+
+/// The rows and columns of cells that lie near each other, and of those around them.
+#[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Patch {
     /// The first column, that of the border being 0.
     pub(super) left: u32,
     /// The first row.
     pub(super) top: u32,
-    /// How many rows there are; without any the rest means nothing.
-    pub(super) height: usize,
-    /// A bit for each cell.
-    pub(super) rows: [u32; SIDE as usize],
-}
-
-/// What becomes of a column of a patch.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Column {
-    pub(super) dirty: u32,
-    pub(super) south: u32,
-    pub(super) north: u32,
+    /// A bit for each row from the first on; without any the rest means nothing.
+    pub(super) rows: u64,
+    /// The same for each column.
+    pub(super) columns: u64,
 }
 
 impl Patch {
     /// Adds a cell and those around it, if they lie near the others.
     pub(super) fn add(&mut self, (x, y): (u32, u32)) -> bool {
-        if self.height == 0 {
-            (self.left, self.top) = (x.saturating_sub(SIDE / 2), y - 1);
-        }
         // Of the cell before it.
-        let (x, y) = (
-            (x - 1).wrapping_sub(self.left),
-            (y - 1).wrapping_sub(self.top),
-        );
-        let fits = x.max(y) <= SIDE - 3;
+        let (x, y) = (x - 1, y - 1);
+        if self.rows == 0 {
+            (self.left, self.top) = [x, y].map(|at| at.saturating_sub(RUN / 2)).into();
+        }
+        let (x, y) = (x.wrapping_sub(self.left), y.wrapping_sub(self.top));
+        let fits = x.max(y) < INNER;
         if fits {
-            let y = y as usize;
-            for row in &mut self.rows[y..y + 3] {
-                *row |= 0b111 << x;
-            }
-            self.height = self.height.max(y + 3);
+            self.rows |= 0b111 << y;
+            self.columns |= 0b111 << x;
         }
         fits
     }
+
+    /// Whether a place lies in its rows and columns, or between them.
+    pub(super) fn holds(&self, (x, y): (u32, u32)) -> bool {
+        x.wrapping_sub(self.left) < RUN && y.wrapping_sub(self.top) < RUN
+    }
 }
 
-/// Puts those bits of a word in their places from one on that a mask has.
+/// The places of the ones of a word.
+pub(super) fn ones(mut word: u64) -> impl Iterator<Item = u32> {
+    std::iter::from_fn(move || {
+        let at = word.trailing_zeros();
+        word &= word.wrapping_sub(1);
+        (at < 64).then_some(at)
+    })
+}
+
+/// Puts those bits of two words in their places from one on that a mask has.
 #[inline]
-pub(super) fn put(bits: &mut [u64], at: u32, mask: u32, word: u32) {
+pub(super) fn put(bits: &mut [[u64; 2]], at: u32, mask: u64, words: [u64; 2]) {
     let (first, shift) = (at as usize / 64, at % 64);
-    let (mask, word) = (u64::from(mask), u64::from(word));
-    bits[first] = bits[first] & !(mask << shift) | word << shift;
-    let beyond = mask >> 1 >> (63 - shift);
-    if beyond != 0 {
-        bits[first + 1] = bits[first + 1] & !beyond | word >> 1 >> (63 - shift);
+    let mut put = |at: usize, mask: u64, words: [u64; 2]| {
+        for (bits, word) in bits[at].iter_mut().zip(words) {
+            *bits = *bits & !mask | word & mask;
+        }
+    };
+    put(first, mask << shift, words.map(|word| word << shift));
+    let beyond = |word: u64| word >> 1 >> (63 - shift);
+    if beyond(mask) != 0 {
+        put(first + 1, beyond(mask), words.map(beyond));
     }
 }
