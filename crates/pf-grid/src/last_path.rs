@@ -198,10 +198,16 @@ impl LastPath {
         Some(Hold::Broken)
     }
 
-    /// What is left of it costs so much, if it holds.
+    /// What is left of it costs so much, if it holds; if it is broken, so much did it cost.
     #[must_use]
     pub fn cost(&self) -> GridCost {
         self.cost
+    }
+
+    /// Whether it is known to be broken in a problem.
+    #[must_use]
+    pub fn is_broken(&self, problem: &GridProblem) -> bool {
+        self.broken == Some(problem.stamp())
     }
 
     /// If it is broken, what is left of it at the goal, or at the start if that `is_backward`. `None` beyond
@@ -212,7 +218,9 @@ impl LastPath {
         problem: &'p GridProblem,
         is_backward: bool,
     ) -> Option<Remnant<'p, W>> {
-        self.broken.filter(|&stamp| stamp == problem.stamp())?;
+        if !self.is_broken(problem) {
+            return None;
+        }
         let [last, first] = self.ends;
         let mut rest = self.cost;
         let mut take_off = |cells: &[Cell]| rest = less(rest, length(cells));
@@ -237,7 +245,9 @@ impl LastPath {
         way: &[Cell],
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Report<GridProblem>> {
-        self.broken.filter(|&stamp| stamp == problem.stamp())?;
+        if !self.is_broken(problem) {
+            return None;
+        }
         let (&first, &last) = (way.first()?, way.last()?);
         let (more, is_legal) = Steps::of(problem).cost(way, |_, _| 2);
         let place = if is_backward {

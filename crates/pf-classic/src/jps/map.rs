@@ -113,7 +113,7 @@ impl JumpMap {
         };
         let mut patch = Patch::default();
         for cell in changed {
-            let place = layout.position(layout.id(cell));
+            let place = (cell.x + 1, cell.y + 1);
             let at = place.0 * self.pitch + place.1;
             let word = &mut self.free[at as usize / 64];
             *word = *word & !(1 << (at % 64)) | u64::from(grid.is_free(cell)) << (at % 64);

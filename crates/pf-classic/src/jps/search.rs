@@ -38,8 +38,12 @@ const MOST_BUCKETS: u64 = 1 << 14;
 /// Measured on made-up maps (random cells, rectangles, mazes): without, open maps take up to three
 /// times as long; with 0, mazes twice.
 const SLACK: u32 = 4;
-/// The same in searches that learn. In drives 4 take a twentieth longer, and a seventh in a maze.
+/// The same in searches that learn, if they know of no last path. In drives 4 take a twentieth longer, and a seventh in
+/// a maze.
 const FAR: u32 = 16;
+/// What is left of a broken path tells better how long the new one may be: four of five are no more than so many steps
+/// longer, and what lies below would be expanded anyway.
+const MORE: u32 = 2;
 
 /// So many steps may be taken in vain on ways of two straight pieces to the goal.
 const VAIN: u32 = 16;
@@ -50,6 +54,13 @@ enum Shortcut {
     /// To what is left of the last path, so far along.
     Remnant(usize),
     Goal,
+}
+
+/// Up to which key a walk along a diagonal is not put off: so much above the one it began at, and this at the least.
+#[derive(Clone, Copy, Debug)]
+struct Slack<W> {
+    more: W,
+    least: W,
 }
 
 /// Where a search may end before it gets to the goal.
@@ -103,8 +114,14 @@ impl<W: Word> JumpSearch<W> {
             self.nodes.forget();
             self.goal = goal;
         }
+        let broken = last.filter(|last| last.is_broken(problem));
+        let broken = broken.and_then(|last| weights.of_cost::<W>(last.cost()));
         // Where a search may end at a short cut, what it expands is dearer than the way there.
-        let slack = W::STRAIGHT.times(if learns { FAR } else { SLACK });
+        let is_far = learns && broken.is_none();
+        let slack = Slack {
+            more: W::STRAIGHT.times(if is_far { FAR } else { SLACK }),
+            least: broken.map_or(W::default(), |cost| cost + W::STRAIGHT.times(MORE)),
+        };
         let octile = weights.octile::<W>(grid, problem.moves(), problem.goal());
         let first = octile(start);
         // A jump raises the key by twice its weight at most.
@@ -145,7 +162,7 @@ impl<W: Word> JumpSearch<W> {
         problem: &GridProblem,
         jumps: &impl Jumps,
         octile: impl Fn(u32) -> W,
-        slack: W,
+        slack: Slack<W>,
         mut ends: Option<Ends<'_, W>>,
         cx: &mut Context<'_, GridProblem>,
     ) -> End<W> {
@@ -196,7 +213,7 @@ impl<W: Word> JumpSearch<W> {
                 arrivals &= arrivals - 1;
             }
             let spot = jumps.place(id);
-            let enough = g + open + slack;
+            let enough = (g + open + slack.more).max(slack.least);
             let mut lines = ways & !all_fans;
             while lines != 0 {
                 let k = lines.trailing_zeros() as usize;
