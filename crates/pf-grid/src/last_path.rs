@@ -2,7 +2,7 @@
 
 use crate::{
     Cell, GridChange, GridCost, GridProblem, Remnant, Word, bend::bend, problem::Steps,
-    window::Window,
+    remnant::FAR, window::Window,
 };
 use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 
@@ -227,12 +227,13 @@ impl LastPath {
         if is_backward {
             let last = last?;
             take_off(&self.path[last..]);
-            let cells = self.path[self.at..=last].iter().rev();
-            return Remnant::of(problem, cells.copied(), rest);
+            let cells = self.path[self.at.max(last.saturating_sub(FAR))..=last].iter();
+            return Remnant::of(problem, cells.rev().copied(), rest);
         }
         let first = first?;
         take_off(&self.path[self.at..=first]);
-        Remnant::of(problem, self.path[first..].iter().copied(), rest)
+        let end = self.path.len().min(first + FAR + 1);
+        Remnant::of(problem, self.path[first..end].iter().copied(), rest)
     }
 
     /// Answers with a way that joins the remnant at the goal so far along, and what is left from there; or what

@@ -5,7 +5,7 @@ use crate::{Apart, Beeline, Cell, GridCost, GridProblem, Weights, Word};
 /// So many places of it can be joined at the most,
 const PLACES: usize = 6;
 /// and none further along than this.
-const FAR: usize = 128;
+pub(crate) const FAR: usize = 128;
 
 /// What is left of a shortest path at one of its ends, on a map without terrain: see
 /// [`LastPath::remnant`](crate::LastPath::remnant).
@@ -24,7 +24,8 @@ pub struct Remnant<'p, W> {
 }
 
 impl<'p, W: Word> Remnant<'p, W> {
-    /// Of cells that cost so much from the first to the end. `None` beyond [`Word::LIMIT`].
+    /// Of cells, [`FAR`] and one at the most, from the first of which to the end it costs so much. `None` beyond
+    /// [`Word::LIMIT`].
     pub(crate) fn of(
         problem: &'p GridProblem,
         mut cells: impl Iterator<Item = Cell>,
@@ -39,32 +40,34 @@ impl<'p, W: Word> Remnant<'p, W> {
             places: [(0, cell, left); PLACES],
             count: 1,
         };
-        // The last step, and so many of its kind.
-        let (mut step, mut run) = ([0, 0], 0);
-        let weigh = |step: [u32; 2]| {
-            if step.contains(&0) {
+        let weigh = |[from, to]: [Cell; 2]| {
+            if from.x == to.x || from.y == to.y {
                 W::STRAIGHT
             } else {
                 W::DIAGONAL
             }
         };
-        let mut along = 0;
-        for next in cells.take(FAR) {
-            let now = [next.x.wrapping_sub(cell.x), next.y.wrapping_sub(cell.y)];
-            if now != step {
+        // In one number, as this looks at each cell.
+        let packed = |cell: Cell| u64::from(cell.y) << 32 | u64::from(cell.x);
+        // The last step, its cells, and so many of its kind, the first of them from here.
+        let (mut last, mut ends, mut run, mut along) = (0, [cell; 2], 0, 0);
+        for next in cells {
+            let step = packed(next).wrapping_sub(packed(cell));
+            if step != last {
                 if run > 0 {
-                    left = left - weigh(step).times(run);
+                    left = left - weigh(ends).times(run);
+                    along += run as usize;
                     remnant.add(along, cell, left);
                     if remnant.count == PLACES {
                         return Some(remnant);
                     }
                 }
-                (step, run) = (now, 0);
+                (last, ends, run) = (step, [cell, next], 0);
             }
-            (along, run, cell) = (along + 1, run + 1, next);
+            (run, cell) = (run + 1, next);
         }
         if run > 0 {
-            remnant.add(along, cell, left - weigh(step).times(run));
+            remnant.add(along + run as usize, cell, left - weigh(ends).times(run));
         }
         Some(remnant)
     }
