@@ -129,11 +129,6 @@ impl Auto {
         self.strewn == Some(false)
     }
 
-    /// Makes the next jump find its memory.
-    pub(crate) fn prepare(&mut self, problem: &GridProblem) {
-        self.jps.prepare(problem);
-    }
-
     /// Answers by jump points, and leaves the path found in the place of the last one. If it learns, it takes what it
     /// learned and what is left of the last path.
     pub(crate) fn jump(

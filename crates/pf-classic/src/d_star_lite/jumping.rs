@@ -145,9 +145,7 @@ impl DStarLite {
         }
         self.catch_up(problem);
         // Looks at the grid anew if that did not do; there is nothing to be seen on terrain.
-        if self.auto.jumps(problem) {
-            self.auto.prepare(problem);
-        }
+        self.auto.jumps(problem);
         if problem.grid().is_uniform() {
             self.is_caught_up();
         }

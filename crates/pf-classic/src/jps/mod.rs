@@ -78,11 +78,6 @@ impl Jps {
         self.known = Some(problem.stamp());
     }
 
-    /// Makes the next search find its memory.
-    pub(crate) fn prepare(&mut self, problem: &GridProblem) {
-        self.search.prepare(problem.grid().layout());
-    }
-
     /// Follows changes with its bits.
     fn follow(&mut self, revision: &Revision<'_, GridProblem>) {
         if let Some(changes) = revision.since(self.known) {

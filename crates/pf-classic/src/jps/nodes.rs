@@ -1,11 +1,13 @@
 //! What searches know of the few cells they reach.
 
-use pf_grid::{Layout, Word};
+use pf_grid::Word;
 
 /// What is known of a jump point.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Node<W> {
     pub(super) id: u32,
+    /// Where its place is in the table.
+    slot: u32,
     /// Least weight found from the start.
     pub(super) g: W,
     /// No less is left to the goal, as earlier searches found out.
@@ -22,30 +24,38 @@ pub(super) struct Node<W> {
 
 /// The nodes of a search and of those before it that it learns from, one after the other as they were reached.
 ///
-/// By id there is no more than a place among them, which means nothing unless the node there is of that id: so
-/// searches that reach little touch little memory, and all is forgotten in no time.
+/// Their places are in a hash table with linear probing. What is in it means nothing unless the node at that place says
+/// that it is the one meant: so searches that reach little touch little memory, and all is forgotten in no time.
 ///
-/// Source: Briggs and Torczon, *An efficient representation for sparse sets*, 1993.
-#[derive(Clone, Debug, Default)]
+/// Source: Knuth, *The Art of Computer Programming* 3, section 6.4; Briggs and Torczon, *An efficient representation for
+/// sparse sets*, 1993.
+#[derive(Clone, Debug)]
 pub(super) struct Nodes<W> {
-    /// By id: where the node is, if it is one.
-    places: Vec<u32>,
+    /// The places of nodes; a power of two of them, twice as many as there are nodes at the least.
+    table: Vec<u32>,
+    /// What is left of a product is so many bits shorter.
+    shift: u32,
     all: Vec<Node<W>>,
     generation: u16,
-    layout: Option<Layout>,
+}
+
+/// Of so many bits is the number of slots at first.
+const FIRST: u32 = 10;
+/// 2^64 over the golden ratio: the upper bits of its multiples tell apart what lies in a row.
+const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
+
+impl<W> Default for Nodes<W> {
+    fn default() -> Self {
+        Self {
+            table: vec![0; 1 << FIRST],
+            shift: u64::BITS - FIRST,
+            all: Vec::new(),
+            generation: 0,
+        }
+    }
 }
 
 impl<W: Word> Nodes<W> {
-    /// Makes ready for grids of a layout, so that the next search need not.
-    pub(super) fn prepare(&mut self, layout: &Layout) {
-        if self.layout != Some(*layout) {
-            self.layout = Some(*layout);
-            self.places.clear();
-            self.places.resize(layout.len(), 0);
-            self.forget();
-        }
-    }
-
     /// Begins another search.
     pub(super) fn begin(&mut self) {
         if self.generation == u16::MAX {
@@ -73,21 +83,33 @@ impl<W: Word> Nodes<W> {
 
     /// The place of an id that was reached.
     pub(super) fn place(&self, id: u32) -> u32 {
-        self.places[id as usize]
+        self.table[self.find(id).0 as usize]
+    }
+
+    /// The slot in which the place of an id is, or would be, and whether it is.
+    #[inline]
+    #[expect(clippy::cast_possible_truncation, reason = "a number of slots")]
+    fn find(&self, id: u32) -> (u32, bool) {
+        let mut slot = (u64::from(id).wrapping_mul(GOLDEN) >> self.shift) as u32;
+        loop {
+            let node = self.all.get(self.table[slot as usize] as usize);
+            match node.filter(|node| node.slot == slot) {
+                Some(node) if node.id != id => slot = (slot + 1) & (self.table.len() as u32 - 1),
+                node => return (slot, node.is_some()),
+            }
+        }
     }
 
     /// The place of an id, its node, and whether this search has been there. If not, its `g` and what follows mean
     /// nothing.
     #[inline]
     pub(super) fn reach(&mut self, id: u32) -> (u32, &mut Node<W>, bool) {
-        let mut place = self.places[id as usize];
-        let is_node = self
-            .all
-            .get(place as usize)
-            .is_some_and(|node| node.id == id);
-        if !is_node {
-            place = self.add(id);
-        }
+        let (slot, is_node) = self.find(id);
+        let place = if is_node {
+            self.table[slot as usize]
+        } else {
+            self.add(id, slot)
+        };
         let node = &mut self.all[place as usize];
         let is_known = is_node && node.generation == self.generation;
         node.generation = self.generation;
@@ -95,19 +117,20 @@ impl<W: Word> Nodes<W> {
     }
 
     #[inline]
-    fn add(&mut self, id: u32) -> u32 {
-        #[expect(
-            clippy::cast_possible_truncation,
-            reason = "no more than there are ids"
-        )]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "no more than there are ids"
+    )]
+    fn add(&mut self, id: u32, slot: u32) -> u32 {
         let place = self.all.len() as u32;
-        self.places[id as usize] = place;
+        self.table[slot as usize] = place;
         if self.all.len() == self.all.capacity() {
             // A vector that grows by itself takes up to twice as much.
             self.all.reserve_exact(self.all.len() / 2 + 64);
         }
         self.all.push(Node {
             id,
+            slot,
             g: W::default(),
             left: W::default(),
             parent: place,
@@ -115,11 +138,33 @@ impl<W: Word> Nodes<W> {
             arrivals: 0,
             closed: false,
         });
+        if self.all.len() * 2 > self.table.len() {
+            self.grow();
+        }
         place
+    }
+
+    #[cold]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "no more than there are ids"
+    )]
+    fn grow(&mut self) {
+        let slots = 2 * self.table.len();
+        // The old memory goes before the new comes.
+        self.table = Vec::new();
+        self.table = vec![0; slots];
+        self.shift -= 1;
+        // What is not put in yet is not in the table.
+        for place in 0..self.all.len() {
+            let (slot, _) = self.find(self.all[place].id);
+            self.table[slot as usize] = place as u32;
+            self.all[place].slot = slot;
+        }
     }
 
     /// Bytes held.
     pub(super) fn bytes(&self) -> usize {
-        self.places.capacity() * size_of::<u32>() + self.all.capacity() * size_of::<Node<W>>()
+        self.table.capacity() * size_of::<u32>() + self.all.capacity() * size_of::<Node<W>>()
     }
 }

@@ -106,7 +106,6 @@ impl<W: Word> JumpSearch<W> {
             return End::TooFar;
         }
         let layout = *grid.layout();
-        self.nodes.prepare(&layout);
         self.nodes.begin();
         let (start, goal) = (layout.id(problem.start()), layout.id(problem.goal()));
         // Who does not learn answers as if nothing had been asked before.
@@ -395,7 +394,11 @@ impl ExactJumps {
         last: Option<&LastPath>,
         cx: &mut Context<'_, GridProblem>,
     ) -> Found {
-        self.prepare(problem.grid().layout());
+        if self.layout != Some(*problem.grid().layout()) {
+            self.layout = Some(*problem.grid().layout());
+            // The old memory goes before the new comes.
+            self.width = Width::default();
+        }
         loop {
             let found = match &mut self.width {
                 Width::Narrow(search) => find(search, problem, jumps, learns, last, cx),
@@ -406,19 +409,6 @@ impl ExactJumps {
                 Some(found) => return found,
                 None => self.width.widen(),
             }
-        }
-    }
-
-    /// Makes ready for grids of a layout, so that the next search need not.
-    pub(super) fn prepare(&mut self, layout: &Layout) {
-        if self.layout == Some(*layout) {
-            return;
-        }
-        self.layout = Some(*layout);
-        // The old memory goes before the new comes.
-        self.width = Width::default();
-        if let Width::Narrow(search) = &mut self.width {
-            search.nodes.prepare(layout);
         }
     }
 
