@@ -31,7 +31,7 @@ pub(super) struct Node<W> {
 /// sparse sets*, 1993.
 #[derive(Clone, Debug)]
 pub(super) struct Nodes<W> {
-    /// The places of nodes; a power of two of them, twice as many as there are nodes at the least.
+    /// The places of nodes; a power of two of them, four times as many as there are nodes at the least.
     table: Vec<u32>,
     /// What is left of a product is so many bits shorter.
     shift: u32,
@@ -92,10 +92,12 @@ impl<W: Word> Nodes<W> {
     fn find(&self, id: u32) -> (u32, bool) {
         let mut slot = (u64::from(id).wrapping_mul(GOLDEN) >> self.shift) as u32;
         loop {
-            let node = self.all.get(self.table[slot as usize] as usize);
-            match node.filter(|node| node.slot == slot) {
-                Some(node) if node.id != id => slot = (slot + 1) & (self.table.len() as u32 - 1),
-                node => return (slot, node.is_some()),
+            match self.all.get(self.table[slot as usize] as usize) {
+                Some(node) if node.id == id => return (slot, true),
+                Some(node) if node.slot == slot => {
+                    slot = (slot + 1) & (self.table.len() as u32 - 1);
+                }
+                _ => return (slot, false),
             }
         }
     }
@@ -138,7 +140,7 @@ impl<W: Word> Nodes<W> {
             arrivals: 0,
             closed: false,
         });
-        if self.all.len() * 2 > self.table.len() {
+        if self.all.len() * 4 > self.table.len() {
             self.grow();
         }
         place
