@@ -5,7 +5,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Planner, Problem, Replanner, Report, Revision, Stamp,
     Unsupported, params,
 };
-use pf_grid::{Cell, Grid, GridProblem, LastPath};
+use pf_grid::{Bend, Cell, Grid, GridProblem, LastPath};
 
 /// The choice has no parameters.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -52,7 +52,12 @@ pub struct Auto {
     /// Of the problem that was answered last.
     known: Option<Stamp>,
     last: LastPath,
+    /// How many cells the last search expanded.
+    effort: u64,
 }
+
+/// A search by jump points that expands so many cells takes a few microseconds.
+pub(crate) const A_FEW: u64 = 32;
 
 /// Whether obstacles are single cells strewn about, so many that runs are short: two and more for each 15 free cells,
 /// and a quarter of the obstacles.
@@ -105,6 +110,7 @@ impl Auto {
     fn survey(&mut self, problem: &GridProblem) -> Option<bool> {
         let grid = problem.grid();
         if !grid.is_uniform() {
+            self.surveyed = None;
             return None;
         }
         if self.surveyed != Some(grid.stamp()) {
@@ -116,12 +122,19 @@ impl Auto {
 
     /// Whether jump points serve a problem's grid well. Their bits are made for it then.
     pub(crate) fn jumps(&mut self, problem: &GridProblem) -> bool {
-        let jumps = self.survey(problem) == Some(false);
-        if jumps {
+        let Some(strewn) = self.survey(problem) else {
+            return false;
+        };
+        self.known = Some(problem.stamp());
+        if !strewn {
             self.jps.look_at(problem);
-            self.known = Some(problem.stamp());
         }
-        jumps
+        !strewn
+    }
+
+    /// Whether they would.
+    pub(crate) fn would_jump(&mut self, problem: &GridProblem) -> bool {
+        self.survey(problem) == Some(false)
     }
 
     /// Whether they served the grid that was surveyed last.
@@ -172,7 +185,7 @@ impl Auto {
         } else {
             cells.for_each(drop);
         }
-        if self.changed * 100 <= grid.layout().len() {
+        if self.surveyed.is_some() && self.changed * 100 <= grid.layout().len() {
             self.surveyed = Some(grid.stamp());
         }
         self.known = Some(problem.stamp());
@@ -221,16 +234,20 @@ impl Auto {
         cx: &mut Context<'_, GridProblem>,
     ) -> Result<Report<GridProblem>, Unsupported> {
         self.known = Some(problem.stamp());
+        let before = cx.stats().expanded;
         let jumps = self.choose(problem, cx);
-        if jumps && learns {
-            return self.jps.answer(problem, true, Some(&mut self.last), cx);
-        }
-        let report = if jumps {
-            self.jps.answer(problem, false, None, cx)
+        let report = if jumps && learns {
+            self.jps.answer(problem, true, Some(&mut self.last), cx)?
         } else {
-            self.astar.plan(problem, cx)
-        }?;
-        self.last.remember(problem, &report);
+            let report = if jumps {
+                self.jps.answer(problem, false, None, cx)
+            } else {
+                self.astar.plan(problem, cx)
+            }?;
+            self.last.remember(problem, &report);
+            report
+        };
+        self.effort = cx.stats().expanded - before;
         Ok(report)
     }
 }
@@ -243,7 +260,12 @@ impl Replanner<GridProblem> for Auto {
     ) -> Result<Report<GridProblem>, Unsupported> {
         let problem = revision.problem();
         self.follow(revision);
-        if let Some(report) = self.last.answer(revision, cx) {
+        let how = if self.effort <= A_FEW {
+            Bend::Near
+        } else {
+            Bend::Far
+        };
+        if let Some(report) = self.last.answer(revision, how, cx) {
             return Ok(report);
         }
         cx.note("replanned", "afresh");

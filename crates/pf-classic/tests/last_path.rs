@@ -2,8 +2,8 @@
 
 use pf_classic::AStar;
 use pf_conformance::{grid::drawing, seeded};
-use pf_core::{Context, PlanRng, Planner, Problem, Solved};
-use pf_grid::{Cell, Grid, GridChange, GridProblem, Hold, LastPath, Moves, Weights, Word};
+use pf_core::{Context, PlanRng, Planner, Problem, Revision, Solved};
+use pf_grid::{Bend, Cell, Grid, GridChange, GridProblem, Hold, LastPath, Moves, Weights, Word};
 use rand::RngExt;
 
 /// Some cells, each next to the path as often as not.
@@ -76,11 +76,25 @@ fn join(
     None
 }
 
+/// Follows a revision, bending far; says also whether the path holds if it bends near.
+fn follow(last: &mut LastPath, revision: &Revision<'_, GridProblem>) -> (Hold, bool) {
+    let mut near = last.clone();
+    near.follow(revision, Bend::Near);
+    let hold = last.follow(revision, Bend::Far);
+    let near = near.left();
+    if let Some(near) = &near {
+        let cost = last.left().map_or(near.cost, |far| far.cost);
+        assert_eq!(revision.problem().judge(&near.solution), Ok(cost));
+    }
+    (hold, near.is_some())
+}
+
 /// On open and on strewn maps, under all rules.
 #[test]
 fn a_path_is_kept_as_long_as_it_is_what_it_is_said_to_be_and_no_shorter() {
     let mut rng = seeded(71);
     let (mut best, mut legal, mut gone, mut broken, mut turned) = (0, 0, 0, 0, 0);
+    let (mut nearer, mut farther) = (0, 0);
     let mut joined = [0, 0];
     for story in 0..6_000 {
         let (width, height) = (rng.random_range(5..90), rng.random_range(1..60));
@@ -110,7 +124,9 @@ fn a_path_is_kept_as_long_as_it_is_what_it_is_said_to_be_and_no_shorter() {
                     .map(|_| change(&mut rng, &problem, &path))
                     .collect();
                 let revision = problem.revise(&changes).unwrap();
-                let hold = last.follow(&revision);
+                let (hold, near) = follow(&mut last, &revision);
+                farther += u32::from(!near && last.left().is_some());
+                nearer += u32::from(near && last.left().is_none());
                 let fresh = astar.plan(&problem, &mut Context::seeded(0)).unwrap();
                 let optimum = fresh.outcome.solved().map(|solved| solved.cost);
                 let what = || format!("story {story}, step {step}\n{}", drawing(&problem));
@@ -160,13 +176,23 @@ fn a_path_is_kept_as_long_as_it_is_what_it_is_said_to_be_and_no_shorter() {
             }
         }
     }
-    let counts = [best, legal, gone, broken, turned, joined[0], joined[1]];
-    let least = [20_000, 10_000, 10_000, 5_000, 500, 1_000, 1_000];
+    let [ahead, back] = joined;
+    let counts = [best, legal, gone, broken, turned, farther, ahead, back];
+    let least = [
+        20_000,
+        10_000,
+        10_000,
+        5_000,
+        500,
+        10 * nearer,
+        1_000,
+        1_000,
+    ];
     let often = counts
         .iter()
         .zip(least)
         .all(|(&count, least)| count > least);
-    assert!(often, "{counts:?}");
+    assert!(often, "{counts:?}, {nearer}");
 }
 
 /// The dear cell on the path is blocked, which makes the map plain, and a cheaper way opens with it.
@@ -182,6 +208,9 @@ fn a_path_over_dear_cells_does_not_bend() {
         GridChange::Freed(vec![Cell::new(0, 1)]),
         GridChange::Blocked(vec![Cell::new(1, 0)]),
     ];
-    assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Gone);
+    assert_eq!(
+        last.follow(&problem.revise(&changes).unwrap(), Bend::Far),
+        Hold::Gone
+    );
     assert!(last.left().is_none());
 }

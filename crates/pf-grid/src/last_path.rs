@@ -1,8 +1,11 @@
 //! The last answer, for as long as nothing that happens can make another one better.
 
 use crate::{
-    Cell, GridChange, GridCost, GridProblem, Remnant, Word, bend::bend, problem::Steps,
-    remnant::FAR, window::Window,
+    Cell, GridChange, GridCost, GridProblem, Remnant, Word,
+    bend::{Bend, bend},
+    problem::Steps,
+    remnant::FAR,
+    window::Window,
 };
 use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 
@@ -11,12 +14,12 @@ use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 /// Its end is a shortest path, too; and where cells are blocked, whatever else is left is no shorter than
 /// before. It was judged whole once, when it was found. After that the judge looks at the steps near cells
 /// that were blocked, as nothing else can make a step illegal. Where they are, and the map has no terrain,
-/// the path bends if the same steps in another order lead past: that costs what it did. If none do, it is
+/// the path [bends](Bend) if the same steps in another order lead past: that costs what it did. If none do, it is
 /// broken, and a search around the break may end where it joins one of its remnants.
 ///
 /// ```
 /// use pf_core::{Context, Problem, Proof};
-/// use pf_grid::{Cell, Grid, GridChange, GridCost, GridProblem, Hold, LastPath};
+/// use pf_grid::{Bend, Cell, Grid, GridChange, GridCost, GridProblem, Hold, LastPath};
 ///
 /// let grid = Grid::open(5, 3).unwrap();
 /// let mut problem = GridProblem::new(grid, Cell::new(0, 1), Cell::new(4, 1)).unwrap();
@@ -26,11 +29,11 @@ use pf_core::{Context, Outcome, Problem, Report, Revision, Solved, Stamp};
 /// last.remember(&problem, &report);
 ///
 /// let changes = [GridChange::StartMoved(Cell::new(1, 1)), GridChange::Blocked(vec![Cell::new(2, 0)])];
-/// assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Best);
+/// assert_eq!(last.follow(&problem.revise(&changes).unwrap(), Bend::Near), Hold::Best);
 /// assert_eq!(last.left().unwrap().cost, GridCost::of_steps(3, 0));
 ///
 /// let changes = [GridChange::Blocked(vec![Cell::new(3, 1)])];
-/// assert_eq!(last.follow(&problem.revise(&changes).unwrap()), Hold::Broken);
+/// assert_eq!(last.follow(&problem.revise(&changes).unwrap(), Bend::Near), Hold::Broken);
 /// ```
 #[derive(Clone, Debug, Default)]
 pub struct LastPath {
@@ -132,12 +135,12 @@ impl LastPath {
         }
     }
 
-    /// What has become of it now. If it is not told of a revision, it is gone at the next one.
-    pub fn follow(&mut self, revision: &Revision<'_, GridProblem>) -> Hold {
-        self.hold(revision).unwrap_or(Hold::Gone)
+    /// What has become of it now, bent as far as is said. If it is not told of a revision, it is gone at the next one.
+    pub fn follow(&mut self, revision: &Revision<'_, GridProblem>, how: Bend) -> Hold {
+        self.hold(revision, how).unwrap_or(Hold::Gone)
     }
 
-    fn hold(&mut self, revision: &Revision<'_, GridProblem>) -> Option<Hold> {
+    fn hold(&mut self, revision: &Revision<'_, GridProblem>, how: Bend) -> Option<Hold> {
         self.broken = None;
         let changes = revision.since(self.known.take())?;
         let problem = revision.problem();
@@ -173,7 +176,7 @@ impl LastPath {
         let left = &mut self.path[self.at..];
         let broken = blocked.and_then(|blocked| breaks(&steps, left, blocked));
         let is_whole = leads && begin.is_some();
-        if is_whole && broken.is_none_or(|broken| is_plain && bend(&steps, left, broken)) {
+        if is_whole && broken.is_none_or(|broken| is_plain && bend(&steps, left, broken, how)) {
             self.known = Some(problem.stamp());
             let is_best = self.is_best;
             return Some(if is_best { Hold::Best } else { Hold::Legal });
@@ -198,15 +201,20 @@ impl LastPath {
         Some(Hold::Broken)
     }
 
-    /// What is left of it costs so much, if it holds; if it is broken, so much did it cost.
+    /// What is left of it costs so much, if it holds.
     #[must_use]
     pub fn cost(&self) -> GridCost {
         self.cost
     }
 
-    /// Whether it is known to be broken in a problem.
+    /// What was left of it cost so much, if it is broken and led from the robot to the goal.
     #[must_use]
-    pub fn is_broken(&self, problem: &GridProblem) -> bool {
+    pub fn broken_cost(&self, problem: &GridProblem) -> Option<GridCost> {
+        let is_whole = self.ends.iter().all(Option::is_some);
+        (is_whole && self.is_broken(problem)).then_some(self.cost)
+    }
+
+    fn is_broken(&self, problem: &GridProblem) -> bool {
         self.broken == Some(problem.stamp())
     }
 
@@ -326,9 +334,10 @@ impl LastPath {
     pub fn answer(
         &mut self,
         revision: &Revision<'_, GridProblem>,
+        how: Bend,
         cx: &mut Context<'_, GridProblem>,
     ) -> Option<Report<GridProblem>> {
-        let is_best = self.follow(revision) == Hold::Best && cx.proceed();
+        let is_best = self.follow(revision, how) == Hold::Best && cx.proceed();
         is_best.then(|| self.keep(revision.problem(), cx))?
     }
 }

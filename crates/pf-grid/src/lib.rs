@@ -33,6 +33,7 @@ mod window;
 mod word;
 
 pub use beeline::Beeline;
+pub use bend::Bend;
 pub use bits::bits_from;
 pub use buckets::Buckets;
 pub use canonical::{Successors, successors};

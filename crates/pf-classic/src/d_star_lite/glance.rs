@@ -2,7 +2,7 @@
 
 use super::DStarLite;
 use pf_core::{Context, Revision};
-use pf_grid::{Beeline, Confines, GridProblem, Hold};
+use pf_grid::{Beeline, Bend, Confines, GridProblem, Hold};
 
 /// More changed cells than that are noted, so that they need not be looked through again and again.
 const LONG: usize = 1 << 10;
@@ -18,7 +18,12 @@ impl DStarLite {
     /// Whether what is left of the last path is best: nothing was freed, or no way over what was can be shorter. That
     /// need not be noted then.
     pub(super) fn still_best(&mut self, revision: &Revision<'_, GridProblem>) -> bool {
-        match self.last_path.follow(revision) {
+        let how = if self.jumps_take_little() {
+            Bend::Near
+        } else {
+            Bend::Far
+        };
+        match self.last_path.follow(revision, how) {
             Hold::Best => true,
             Hold::Legal if self.is_straight(revision.problem()) => true,
             Hold::Legal if self.pending.len() - self.told <= LONG => {

@@ -73,7 +73,8 @@ impl JumpMap {
     /// Looks for blocked cells in the inner rows and columns of a patch, to an open map.
     fn look_at(&mut self, grid: &Grid, moves: Moves, (left, top): (u32, u32)) {
         let layout = grid.layout();
-        let within = u64::MAX >> (64 - INNER.min(layout.width() - left));
+        let columns = INNER.min(layout.width() - left);
+        let within = u64::MAX >> (64 - columns);
         let mut patch = Patch {
             left,
             top,
@@ -92,7 +93,7 @@ impl JumpMap {
             return;
         }
         transpose(&mut blocked);
-        for (x, column) in (0..).zip(blocked).take(INNER as usize) {
+        for (x, column) in (0..).zip(blocked).take(columns as usize) {
             let at = (left + 1 + x) * self.pitch + top + 1;
             let (word, shift) = (at as usize / 64, at % 64);
             if column != 0 {
@@ -129,9 +130,12 @@ impl JumpMap {
 
     /// Makes the bits of a patch again.
     fn redo(&mut self, grid: &Grid, moves: Moves, patch: &Patch) {
+        if patch.rows == 0 {
+            return;
+        }
         let layout = grid.layout();
-        let is_there = |marked: &mut Marked| patch.holds(layout.position(layout.id(marked.cell)));
-        if self.marked.as_mut().is_some_and(is_there) {
+        let is_there = |marked: Marked| patch.holds((marked.cell.x + 1, marked.cell.y + 1));
+        if self.marked.is_some_and(is_there) {
             self.unmark(layout);
         }
         for y in ones(patch.rows) {

@@ -8,10 +8,10 @@ pub(super) struct Node<W> {
     pub(super) id: u32,
     /// Where its place is in the table.
     slot: u32,
-    /// Least weight found from the start.
-    pub(super) g: W,
     /// No less is left to the goal, as earlier searches found out.
     pub(super) left: W,
+    /// Least weight found from the start.
+    pub(super) g: W,
     /// The place of the jump point before it.
     pub(super) parent: u32,
     /// The search that `g` and what follows belong to; of others they are as good as never written.
@@ -29,7 +29,7 @@ pub(super) struct Node<W> {
 ///
 /// Source: Knuth, *The Art of Computer Programming* 3, section 6.4; Briggs and Torczon, *An efficient representation for
 /// sparse sets*, 1993.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(super) struct Nodes<W> {
     /// The places of nodes; a power of two of them, four times as many as there are nodes at the least.
     table: Vec<u32>,
@@ -44,17 +44,6 @@ const FIRST: u32 = 10;
 /// 2^64 over the golden ratio: the upper bits of its multiples tell apart what lies in a row.
 const GOLDEN: u64 = 0x9e37_79b9_7f4a_7c15;
 
-impl<W> Default for Nodes<W> {
-    fn default() -> Self {
-        Self {
-            table: vec![0; 1 << FIRST],
-            shift: u64::BITS - FIRST,
-            all: Vec::new(),
-            generation: 0,
-        }
-    }
-}
-
 impl<W: Word> Nodes<W> {
     /// Begins another search.
     pub(super) fn begin(&mut self) {
@@ -63,6 +52,9 @@ impl<W: Word> Nodes<W> {
             self.generation = 0;
         }
         self.generation += 1;
+        if self.table.is_empty() {
+            (self.table, self.shift) = (vec![0; 1 << FIRST], u64::BITS - FIRST);
+        }
     }
 
     /// Forgets all nodes.
@@ -133,8 +125,8 @@ impl<W: Word> Nodes<W> {
         self.all.push(Node {
             id,
             slot,
-            g: W::default(),
             left: W::default(),
+            g: W::default(),
             parent: place,
             generation: self.generation,
             arrivals: 0,

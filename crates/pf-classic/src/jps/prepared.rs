@@ -68,7 +68,7 @@ impl Prepared {
         if self.table.is_of(grid, moves) {
             return true;
         }
-        let can = JumpTable::fits(grid) && self.auto.jumps(problem);
+        let can = JumpTable::fits(grid) && self.auto.would_jump(problem);
         if can {
             self.table.make(grid, moves);
         }

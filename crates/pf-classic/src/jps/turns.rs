@@ -31,3 +31,36 @@ fn turns(moves: Moves, [left, [from, _, to], right]: [[u64; 3]; 3]) -> u64 {
     };
     (aside(left) | aside(right)) & from
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use pf_grid::{DIRECTIONS, successors};
+
+    /// Whatever is free around a cell, under all rules.
+    #[test]
+    fn scans_stop_where_successors_lead_aside() {
+        for moves in Moves::ALL {
+            for (k, around) in (0..4).flat_map(|k| (0..=255u8).map(move |around| (k, around))) {
+                let (dx, dy) = DIRECTIONS[k];
+                // Without diagonals no scan goes up or down, and none comes from a blocked cell.
+                let is_level = dy == 0;
+                if moves == Moves::Orthogonal && !is_level || around >> ((k + 2) % 4) & 1 == 0 {
+                    continue;
+                }
+                // The cell itself is in the second place of the second line; columns are lines of their own.
+                let mut lines = [0, 0b10, 0];
+                for (k, (x, y)) in DIRECTIONS.into_iter().enumerate() {
+                    let (along, line) = if is_level { (x, y) } else { (y, x) };
+                    let is_free = u64::from(around >> k & 1);
+                    lines[(line + 1).cast_unsigned() as usize] |= is_free << (along + 1);
+                }
+                let free = |at: u32| lines[(at / 100) as usize];
+                let [ahead, back] = stops(moves, free, 100, 101);
+                let stops = if dx + dy > 0 { ahead } else { back };
+                let elsewhere = successors(moves)[k][usize::from(around)] & !(1 << k) != 0;
+                assert_eq!(stops & 1 == 1, elsewhere, "{moves}, {k}, {around:08b}");
+            }
+        }
+    }
+}

@@ -12,7 +12,7 @@ use pf_core::{
     Claims, Context, InvalidParams, Outcome, Planner, Problem, Proof, Replanner, Report, Revision,
     Stamp, Unsupported, params,
 };
-use pf_grid::{Cell, GridProblem, Hold, LastPath, U48};
+use pf_grid::{Bend, Cell, GridProblem, Hold, LastPath, U48};
 
 /// When an [`RfdField`] repairs and when it sweeps.
 #[derive(Clone, Debug, PartialEq)]
@@ -253,7 +253,7 @@ impl Replanner<GridProblem> for RfdField {
         };
         self.known = Some(problem.stamp());
         basin!(&mut self.width, basin => basin.tell(problem, changes));
-        let last = self.last.follow(revision);
+        let last = self.last.follow(revision, Bend::Far);
         if is_hopeless(problem) {
             return Ok(cx.report(Outcome::Infeasible));
         }
