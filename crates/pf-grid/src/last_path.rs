@@ -99,8 +99,11 @@ fn breaks(steps: &Steps<'_>, path: &[Cell], blocked: Window) -> Option<[usize; 2
 
 /// What a path costs on a map without terrain.
 fn length(path: &[Cell]) -> GridCost {
-    let is_diagonal = |pair: &&[Cell]| pair[0].x != pair[1].x && pair[0].y != pair[1].y;
-    let diagonal = path.windows(2).filter(is_diagonal).count() as u64;
+    // No branch: of which kind a step is is hard to guess.
+    let kinds = path
+        .windows(2)
+        .map(|pair| u64::from(pair[0].x != pair[1].x) & u64::from(pair[0].y != pair[1].y));
+    let diagonal = kinds.sum();
     GridCost::of_steps(path.len() as u64 - 1 - diagonal, diagonal)
 }
 

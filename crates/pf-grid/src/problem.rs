@@ -223,12 +223,10 @@ impl<'g> Steps<'g> {
     pub(crate) fn run(&self, from: Cell, (dx, dy): (i32, i32), count: u32) -> (u32, Cell) {
         let place = Self::place((dx.cast_unsigned(), dy.cast_unsigned()));
         let on = dx + dy * self.pitch.cast_signed();
-        let first = self.id(from);
-        let is_open = |&n: &u32| {
-            let id = first.wrapping_add_signed(on.wrapping_mul(n.cast_signed()));
-            self.legal_at(id) >> place & 1 == 1
-        };
-        let taken = (0..count).find(|n| !is_open(n)).unwrap_or(count);
+        let (mut id, mut taken) = (self.id(from), 0);
+        while taken < count && self.legal_at(id) >> place & 1 == 1 {
+            (id, taken) = (id.wrapping_add_signed(on), taken + 1);
+        }
         let along = |at: u32, d: i32| at.wrapping_add_signed(d.wrapping_mul(taken.cast_signed()));
         (taken, Cell::new(along(from.x, dx), along(from.y, dy)))
     }
