@@ -31,8 +31,8 @@ params!(JpsParams {});
 ///
 /// What lies between is scanned 64 cells at a time, in bits that say where a scan in a straight
 /// direction stops. They are made at the first query on a grid, in a nanosecond or two a cell, and
-/// follow its changes. One iteration is one jump point expanded. After the first call on a grid the
-/// next allocates only the path it returns. A replan learns what is left from where it was, for the next
+/// follow its changes. One iteration is one jump point expanded. After a call the next allocates
+/// only the path it returns, unless it reaches more. A replan learns what is left from where it was, for the next
 /// one to the same goal, until a cell is freed (Koenig and Likhachev, *Adaptive A\**, 2005).
 ///
 /// Any move rule; no terrain ([`Unsupported`]).
