@@ -195,8 +195,8 @@ impl Auto {
     fn choose(&mut self, problem: &GridProblem, cx: &mut Context<'_, GridProblem>) -> bool {
         let (jumps, why) = match self.survey(problem) {
             None => (false, "astar: terrain"),
-            Some(true) => (false, "astar: strewn obstacles"),
-            Some(false) => (true, "jps: obstacles hang together, or are few"),
+            Some(true) => (false, "astar: strewn cells"),
+            Some(false) => (true, "jps: larger obstacles"),
         };
         cx.note("search", why);
         jumps

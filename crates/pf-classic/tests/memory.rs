@@ -74,14 +74,14 @@ fn jump_points_take_less_than_a_byte_a_cell_where_they_are_few_and_their_table_1
 fn after_the_first_call_only_the_path_is_allocated() {
     let problem = serpentine();
     let short = GridProblem::new(problem.shared_grid(), Cell::new(9, 0), Cell::new(9, 8)).unwrap();
-    // One that chooses says what it chose: a text, in a list.
+    // One that chooses says what it chose, in a list.
     let planners: [(&mut dyn Planner<GridProblem>, u64); 6] = [
         (&mut AStar::default(), 1),
         (&mut Dijkstra::default(), 1),
         (&mut DStarLite::default(), 1),
         (&mut Jps::default(), 1),
         (&mut Prepared::default(), 1),
-        (&mut Auto::default(), 3),
+        (&mut Auto::default(), 2),
     ];
     for (planner, allowed) in planners {
         for problem in [&problem, &short] {
