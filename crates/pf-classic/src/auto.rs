@@ -56,9 +56,6 @@ pub struct Auto {
     effort: u64,
 }
 
-/// A search by jump points that expands so many cells takes a few microseconds.
-pub(crate) const A_FEW: u64 = 32;
-
 /// Whether obstacles are single cells strewn about, so many that runs are short: two and more for each 15 free cells,
 /// and a quarter of the obstacles.
 ///
@@ -260,11 +257,7 @@ impl Replanner<GridProblem> for Auto {
     ) -> Result<Report<GridProblem>, Unsupported> {
         let problem = revision.problem();
         self.follow(revision);
-        let how = if self.effort <= A_FEW {
-            Bend::Near
-        } else {
-            Bend::Far
-        };
+        let how = Bend::to_spare(self.effort);
         if let Some(report) = self.last.answer(revision, how, cx) {
             return Ok(report);
         }

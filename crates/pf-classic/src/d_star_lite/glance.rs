@@ -18,11 +18,9 @@ impl DStarLite {
     /// Whether what is left of the last path is best: nothing was freed, or no way over what was can be shorter. That
     /// need not be noted then.
     pub(super) fn still_best(&mut self, revision: &Revision<'_, GridProblem>) -> bool {
-        let how = if self.jumps_take_little() {
-            Bend::Near
-        } else {
-            Bend::Far
-        };
+        // Else a search may come first, and distances after it.
+        let jump = self.rests_on_jumps().then_some(self.jump_effort);
+        let how = jump.map_or(Bend::Far, Bend::to_spare);
         match self.last_path.follow(revision, how) {
             Hold::Best => true,
             Hold::Legal if self.is_straight(revision.problem()) => true,

@@ -1,7 +1,6 @@
 //! When D* Lite jumps, and what it tells who does.
 
 use super::{DStarLite, guided::Found};
-use crate::auto::A_FEW;
 use pf_core::{Context, Outcome, Problem, Proof, Report, Unsupported};
 use pf_grid::{Beeline, GridProblem};
 
@@ -126,11 +125,6 @@ impl DStarLite {
     /// Whether answers do well without distances: after a plan that took none, while jumps take little.
     pub(super) fn rests_on_jumps(&self) -> bool {
         self.is_idle() && self.jump_effort <= LITTLE && self.auto.has_jumps()
-    }
-
-    /// Whether a jump comes next if the last path breaks, and takes no more than a few microseconds.
-    pub(super) fn jumps_take_little(&self) -> bool {
-        self.rests_on_jumps() && self.jump_effort <= A_FEW
     }
 
     /// Makes the bits of jump points or follows what has changed with them, if there is reason to.

@@ -140,29 +140,17 @@ impl JumpMap {
         }
         for y in ones(patch.rows) {
             let first = layout.id_at((patch.left, patch.top + y));
-            self.redo_row(grid, moves, first, patch.columns);
+            let stops = stops(moves, |at| grid.free_bits(at), layout.pitch(), first);
+            put(&mut self.stops[0], first, patch.columns, stops);
+        }
+        if moves == Moves::Orthogonal {
+            // No scan goes up or down.
+            return;
         }
         for x in ones(patch.columns) {
             let first = (patch.left + x) * self.pitch + patch.top;
-            self.redo_column(moves, first, patch.rows);
-        }
-    }
-
-    /// Makes those bits of a row from a place on again that a mask has.
-    #[inline]
-    fn redo_row(&mut self, grid: &Grid, moves: Moves, first: u32, mask: u64) {
-        let pitch = grid.layout().pitch();
-        let stops = stops(moves, |at| grid.free_bits(at), pitch, first);
-        put(&mut self.stops[0], first, mask, stops);
-    }
-
-    /// The same of a column. Without diagonals no scan goes up or down.
-    #[inline]
-    fn redo_column(&mut self, moves: Moves, first: u32, mask: u64) {
-        if moves != Moves::Orthogonal {
-            let free = |at| bits_from(&self.free, at);
-            let stops = stops(moves, free, self.pitch, first);
-            put(&mut self.stops[1], first, mask, stops);
+            let stops = stops(moves, |at| bits_from(&self.free, at), self.pitch, first);
+            put(&mut self.stops[1], first, patch.rows, stops);
         }
     }
 

@@ -8,8 +8,7 @@ pub(super) const RUN: u32 = 62;
 /// Where scans stop among the [`RUN`] cells of a line from a place on, ahead and back: at blocked cells, and where
 /// [`successors`](pf_grid::successors) have ways on from a straight step that do not lead straight on. `free` says which
 /// of 64 cells from a place on are free, and a line lies `pitch` places behind the one before it. Lines are rows, or, as
-/// far as there are diagonals, columns.
-/// No scan comes to a cell from a blocked one.
+/// far as there are diagonals, columns. Nothing is said of turns right behind a blocked cell, as no scan comes from there.
 #[inline]
 pub(super) fn stops(moves: Moves, free: impl Fn(u32) -> u64, pitch: u32, first: u32) -> [u64; 2] {
     let first = first.wrapping_sub(1);
